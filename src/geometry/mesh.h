@@ -1,7 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
+// OpenMesh's Eigen adapter specialises a template that the first header declares: keep this order.
+// clang-format off
+#include <OpenMesh/Core/Utils/vector_traits.hh>
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
+// clang-format on
+#include <Eigen/Core>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <array>
 #include <cstdint>
