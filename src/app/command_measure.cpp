@@ -1,0 +1,81 @@
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "app/command.h"
+#include "app/inputs.h"
+#include "app/json_summary.h"
+#include "app/length.h"
+#include "meshing/measure.h"
+
+namespace fcn::app {
+namespace {
+
+struct MeasureArguments {
+    CommonArguments common;
+    MeshArguments mesh;
+    std::string input;
+    std::string reference;
+    std::string spacing = "0.5%";
+};
+
+Json distance_json(const MeshDistance& distance, double spacing) {
+    return {{"hausdorff", distance.hausdorff},
+            {"hausdorff_over_diagonal", distance.hausdorff / distance.diagonal},
+            {"forward", distance.forward},
+            {"backward", distance.backward},
+            {"mean_forward", distance.mean_forward},
+            {"mean_backward", distance.mean_backward},
+            {"samples", distance.samples},
+            {"sample_spacing", spacing},
+            {"reference_diagonal", distance.diagonal}};
+}
+
+int measure(const MeasureArguments& arguments) {
+    const LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
+    const LoadedMesh reference = load_mesh(arguments.reference, arguments.mesh, arguments.common);
+    const double spacing = parse_length(arguments.spacing, "--spacing")
+                               .resolve(bounding_box(reference.mesh).diagonal());
+    const TriangleQuality quality = measure_triangles(mesh.mesh);
+    const MeshDistance distance = measure_distance(mesh.mesh, reference.mesh, spacing);
+    if (arguments.common.is_json) {
+        print_json({{"mesh", mesh_json(mesh)},
+                    {"reference", mesh_json(reference)},
+                    {"triangles", quality_json(quality)},
+                    {"distance", distance_json(distance, spacing)}});
+        return kDone;
+    }
+    fmt::print("{}: {} vertices, {} triangles\n", mesh.name, quality.vertices, quality.faces);
+    fmt::print("smallest angle        {:.2f} degrees (mean of the triangles' smallest {:.2f})\n",
+               quality.min_angle_degrees, quality.mean_min_angle_degrees);
+    fmt::print("triangles under 15    {:.2f} %\ntriangles under 30    {:.2f} %\n",
+               100 * quality.share_under_15, 100 * quality.share_under_30);
+    fmt::print("edges                 {:.5g} .. {:.5g}, mean {:.5g}\n", quality.min_edge,
+               quality.max_edge, quality.mean_edge);
+    fmt::print("Hausdorff distance    {:.5g} ({:.3f} % of the reference's diagonal {:.5g})\n",
+               distance.hausdorff, 100 * distance.hausdorff / distance.diagonal, distance.diagonal);
+    fmt::print("mean distance         {:.5g} to the reference, {:.5g} back\n",
+               distance.mean_forward, distance.mean_backward);
+    return kDone;
+}
+
+}  // namespace
+
+Command add_measure_command(CLI::App& program) {
+    auto arguments = std::make_shared<MeasureArguments>();
+    CLI::App* parser = program.add_subcommand(
+        "measure", "Triangle quality of a mesh and its distance to a reference");
+    parser->add_option("MESH", arguments->input, "The mesh to judge")->required();
+    parser->add_option("REFERENCE", arguments->reference, "The surface it should follow")
+        ->required();
+    parser
+        ->add_option("--spacing", arguments->spacing,
+                     "Distance between samples; % of the reference's diagonal")
+        ->capture_default_str();
+    add_mesh_arguments(*parser, arguments->mesh);
+    add_common_arguments(*parser, arguments->common);
+    parser->footer("Example:\n  scalefcn measure out/part/2pct/remesh.obj part.stl");
+    return {parser, [arguments] { return measure(*arguments); }};
+}
+
+}  // namespace fcn::app

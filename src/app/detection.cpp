@@ -1,0 +1,206 @@
+// `--method auto`: sharp edges describe a mechanical part and say little about a scan, where
+// dihedral angles above the threshold come as short crumbs. So sharp is taken when the sharp
+// network is long against the mesh and consists mainly of long curves, and VSA otherwise.
+
+#include "app/detection.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <numbers>
+#include <sstream>
+
+#include "app/command.h"
+#include "app/inputs.h"
+#include "app/length.h"
+#include "geometry/errors.h"
+
+namespace fcn::app {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+/// A curve longer than this share of the diagonal counts as long for `auto`.
+constexpr double kLongCurveShare = 0.1;
+
+SharpOptions sharp_options(const DetectionArguments& arguments, double diagonal) {
+    if (arguments.low_angle_degrees > arguments.sharp_angle_degrees)
+        throw UsageError(fmt::format("--low-angle {} must not exceed --sharp-angle {}",
+                                     arguments.low_angle_degrees, arguments.sharp_angle_degrees));
+    SharpOptions options;
+    options.high_angle = arguments.sharp_angle_degrees * kRadians;
+    options.low_angle = arguments.low_angle_degrees * kRadians;
+    if (arguments.sign == "convex") options.sign = SharpSign::Convex;
+    if (arguments.sign == "concave") options.sign = SharpSign::Concave;
+    if (!arguments.min_length.empty())
+        options.min_length = parse_length(arguments.min_length, "--min-length").resolve(diagonal);
+    return options;
+}
+
+std::vector<int> read_seed_faces(const std::string& path, std::size_t face_count) {
+    std::istringstream in(read_text(path));
+    std::vector<int> seeds;
+    for (std::string word; in >> word;) {
+        std::size_t used = 0;
+        long long face = -1;
+        try {
+            face = std::stoll(word, &used);
+        } catch (const std::exception&) {
+            used = 0;
+        }
+        if (used != word.size() || face < 0 || face >= static_cast<long long>(face_count))
+            throw InputError(
+                fmt::format("{}: '{}' is not a face index below {}", path, word, face_count));
+        seeds.push_back(static_cast<int>(face));
+    }
+    return seeds;
+}
+
+VsaOptions vsa_options(const DetectionArguments& arguments, const Mesh& mesh, int threads) {
+    VsaOptions options;
+    options.patch_count = arguments.patch_count;
+    options.max_iterations = arguments.vsa_iterations;
+    options.min_patch_area = arguments.min_patch_area;
+    options.is_straightening = !arguments.is_unstraightened;
+    options.threads = threads;
+    if (!arguments.seed_faces_path.empty())
+        options.seed_faces = read_seed_faces(arguments.seed_faces_path, mesh.n_faces());
+    return options;
+}
+
+bool is_mechanical(FeatureCurveNetwork sharp, double diagonal) {
+    find_curves(sharp);
+    double total = 0;
+    double in_long_curves = 0;
+    for (const NetworkCurve& curve : sharp.curves) {
+        total += curve.length;
+        if (curve.length > kLongCurveShare * diagonal) in_long_curves += curve.length;
+    }
+    return total > diagonal && in_long_curves > total / 2;
+}
+
+Detection detect_features(const LoadedMesh& mesh, const DetectionArguments& arguments,
+                          double diagonal, int threads) {
+    Detection detection;
+    detection.method = arguments.method;
+    if (arguments.method != "vsa") {
+        detection.network = detect_sharp(mesh, sharp_options(arguments, diagonal));
+        if (arguments.method == "auto") {
+            detection.method = is_mechanical(detection.network, diagonal) ? "sharp" : "vsa";
+            detection.messages.push_back(
+                fmt::format("feature detector chosen by --method auto: {}", detection.method));
+        }
+    }
+    if (detection.method == "vsa")
+        detection.network = detect_vsa(mesh, vsa_options(arguments, mesh.mesh, threads));
+    return detection;
+}
+
+BoundaryPolicy boundary_policy(const std::string& name) {
+    if (name == "adapt") return BoundaryPolicy::Adapt;
+    if (name == "ignore") return BoundaryPolicy::Ignore;
+    return BoundaryPolicy::Keep;
+}
+
+Detection import_network(const LoadedMesh& mesh, const std::string& path) {
+    Detection detection;
+    detection.method = "import";
+    detection.network = read_network_for_mesh(path, mesh);
+    return detection;
+}
+
+void add_sharp_arguments(CLI::App& parser, DetectionArguments& arguments) {
+    constexpr const char* kGroup = "Sharp edges";
+    parser
+        .add_option("--sharp-angle", arguments.sharp_angle_degrees,
+                    "Degrees between normals from which an edge is a feature")
+        ->group(kGroup)
+        ->check(CLI::Range(0.0, 180.0))
+        ->capture_default_str();
+    parser
+        .add_option("--low-angle", arguments.low_angle_degrees,
+                    "Degrees down to which a feature goes on (hysteresis)")
+        ->group(kGroup)
+        ->check(CLI::Range(0.0, 180.0))
+        ->capture_default_str();
+    parser.add_option("--sign", arguments.sign, "Which edges: both, convex, concave")
+        ->group(kGroup)
+        ->check(CLI::IsMember({"both", "convex", "concave"}))
+        ->capture_default_str();
+    parser
+        .add_option("--min-length", arguments.min_length,
+                    "Drop connected chains shorter than this length")
+        ->group(kGroup);
+}
+
+void add_vsa_arguments(CLI::App& parser, DetectionArguments& arguments) {
+    constexpr const char* kGroup = "Variational shape approximation (vsa)";
+    parser.add_option("--patches", arguments.patch_count, "Number of patches")
+        ->group(kGroup)
+        ->check(CLI::Range(2, 10'000'000))
+        ->capture_default_str();
+    parser.add_option("--vsa-iterations", arguments.vsa_iterations, "Most rounds of clustering")
+        ->group(kGroup)
+        ->check(CLI::Range(1, 10'000))
+        ->capture_default_str();
+    parser
+        .add_option("--min-patch-area", arguments.min_patch_area,
+                    "Dissolve patches smaller than this share of the mean patch")
+        ->group(kGroup)
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    parser
+        .add_flag("--no-straightening", arguments.is_unstraightened,
+                  "Leave the patch borders on mesh edges")
+        ->group(kGroup);
+    parser
+        .add_option("--vsa-seeds", arguments.seed_faces_path,
+                    "File with the face indices (from 0) of the first seeds")
+        ->group(kGroup);
+}
+
+}  // namespace
+
+void add_detection_arguments(CLI::App& parser, DetectionArguments& arguments) {
+    parser
+        .add_option("--method", arguments.method,
+                    "Feature detector: sharp (creases), vsa (borders of nearly flat patches), "
+                    "auto (sharp for mechanical parts, vsa for scans)")
+        ->check(CLI::IsMember({"auto", "sharp", "vsa"}))
+        ->capture_default_str();
+    add_sharp_arguments(parser, arguments);
+    add_vsa_arguments(parser, arguments);
+    constexpr const char* kGroup = "Mesh boundaries and borders between face labels";
+    parser
+        .add_option("--boundary", arguments.boundary,
+                    "keep (pinned: features yield to them), adapt (like features), ignore")
+        ->group(kGroup)
+        ->check(CLI::IsMember({"keep", "adapt", "ignore"}))
+        ->capture_default_str();
+    parser
+        .add_option("--corner-angle", arguments.corner_angle_degrees,
+                    "Degrees by which a boundary turns at a corner")
+        ->group(kGroup)
+        ->check(CLI::Range(0.0, 180.0))
+        ->capture_default_str();
+}
+
+Detection detect_network(const LoadedMesh& mesh, const DetectionArguments& arguments, int threads) {
+    const double diagonal = bounding_box(mesh.mesh).diagonal();
+    Detection detection = arguments.network_path.empty()
+                              ? detect_features(mesh, arguments, diagonal, threads)
+                              : import_network(mesh, arguments.network_path);
+    if (arguments.network_path.empty() || !is_lossless_network(arguments.network_path))
+        detection.network =
+            add_boundaries(detection.network, mesh, boundary_policy(arguments.boundary),
+                           arguments.corner_angle_degrees * kRadians);
+    const auto& notes = detection.network.notes;
+    detection.messages.insert(detection.messages.end(), notes.begin(), notes.end());
+    if (detection.network.arcs.empty())
+        detection.messages.push_back(
+            fmt::format("no feature curve found by method {}: the mesh will be remeshed freely "
+                        "(try another --method or a lower --sharp-angle)",
+                        detection.method));
+    return detection;
+}
+
+}  // namespace fcn::app

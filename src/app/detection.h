@@ -1,0 +1,44 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "features/features.h"
+
+namespace fcn::app {
+
+/// Where the initial network comes from: a detector, or a file.
+struct DetectionArguments {
+    std::string method = "auto";
+    std::string network_path;  ///< import instead of detecting; only where offered
+
+    double sharp_angle_degrees = 40;
+    double low_angle_degrees = 18;
+    std::string sign = "both";
+    std::string min_length = "";  ///< empty = keep all
+
+    int patch_count = 100;
+    int vsa_iterations = 40;
+    double min_patch_area = 0;
+    bool is_unstraightened = false;
+    std::string seed_faces_path;
+
+    std::string boundary = "keep";
+    double corner_angle_degrees = 45;
+};
+
+/// Options of the detectors; `--method auto` is offered too. Ranges are checked while parsing.
+void add_detection_arguments(CLI::App& parser, DetectionArguments& arguments);
+
+struct Detection {
+    FeatureCurveNetwork network;
+    std::string method;  ///< what `auto` decided for, "import" for a file
+    std::vector<std::string> messages;
+};
+
+/// The initial network with boundaries and label borders. An imported network must fit the mesh
+/// (InputError otherwise).
+Detection detect_network(const LoadedMesh& mesh, const DetectionArguments& arguments, int threads);
+
+}  // namespace fcn::app
