@@ -31,9 +31,9 @@ struct LoadedMesh {
     std::vector<int> face_labels;          ///< per face; empty when the file has none
     std::vector<std::string> label_names;  ///< by label; may be shorter than the largest label
     RepairReport repairs;
-    std::string name;                      ///< file name without folder and extension
-    std::string units;                     ///< as the file states ("mm"), usually empty
-    std::uint64_t hash = 0;                ///< FNV-1a over positions and faces after repair
+    std::string name;        ///< file name without folder and extension
+    std::string units;       ///< as the file states ("mm"), usually empty
+    std::uint64_t hash = 0;  ///< FNV-1a over positions and faces after repair
 };
 
 struct ReadOptions {
