@@ -14,8 +14,8 @@ const char* to_string(ViolationKind kind);
 /// One violated condition of strict conformity (i)-(iv).
 struct Violation {
     ViolationKind kind = ViolationKind::Angle;
-    int first = -1;    ///< segment, or node for CloseNodes
-    int second = -1;   ///< the other one; -1 for a length violation
+    int first = -1;       ///< segment, or node for CloseNodes
+    int second = -1;      ///< the other one; -1 for a length violation
     double measured = 0;  ///< length, distance or angle (radians)
     double required = 0;
     Vec3 witness_first = Vec3::Zero();
@@ -37,11 +37,11 @@ struct ConformityReport {
     std::size_t counted = 0;            ///< neither input-forced nor exempt
     std::size_t input_forced = 0;
     std::size_t exempt = 0;
-    std::size_t long_segments = 0;      ///< allowed ones
+    std::size_t long_segments = 0;  ///< allowed ones
     /// Largest surface / Euclidean distance ratio between close kept curves (Definition 1(2));
     /// 0 when not measured (no mesh) or no close pair.
     double max_distance_ratio = 0;
-    std::size_t distance_ratio_pairs = 0;   ///< pairs measured
+    std::size_t distance_ratio_pairs = 0;  ///< pairs measured
     std::size_t distance_ratio_over_two = 0;
     bool is_conforming() const { return counted == 0; }
 };
