@@ -40,7 +40,7 @@ struct NetworkArc {
     std::array<int, 2> patches{-1, -1};  ///< patch left and right of the arc; -1 unknown
     ArcKind kind = ArcKind::Feature;
     Pin pin = Pin::None;
-    std::string source;                  ///< detector: "sharp", "vsa", "boundary", "import", ...
+    std::string source;  ///< detector: "sharp", "vsa", "boundary", "import", ...
     /// Length-weighted mean signed dihedral angle over the arc, radians, > 0 convex; 0 unknown.
     double dihedral = 0;
     double length() const;
@@ -80,13 +80,13 @@ struct SymmetryOrbit {
 /// A piece of the initial network that adaptation did not keep.
 struct DroppedPiece {
     std::vector<Vec3> polyline;
-    int origin_arc = -1;   ///< arc of the initial network
-    int iteration = 0;     ///< 1-based; 0 = before the first labeling
-    int label = -1;        ///< label in that iteration's problem, 0-based; -1 none
-    std::string reason;    ///< "conflict", "rule", "short arc", "closed arc without three segments",
-                           ///< "pinned out", "crumb"
+    int origin_arc = -1;  ///< arc of the initial network
+    int iteration = 0;    ///< 1-based; 0 = before the first labeling
+    int label = -1;       ///< label in that iteration's problem, 0-based; -1 none
+    std::string reason;   ///< "conflict", "rule", "short arc", "closed arc without three segments",
+                          ///< "pinned out", "crumb"
     std::vector<int> blockers;  ///< labels of that iteration's problem that were kept against it
-    double weight = 0;     ///< w(e), real units
+    double weight = 0;          ///< w(e), real units
 };
 
 /// Feature curve network on a mesh (Gehre, Lim, Kobbelt 2016, Definition 1). An initial network
@@ -95,9 +95,9 @@ struct FeatureCurveNetwork {
     std::string mesh_name;
     std::uint64_t mesh_hash = 0;
     std::string units;
-    double diagonal = 0;        ///< of the mesh's bounding box
-    double scale = 0;           ///< rmin of an adapted network; 0 in an initial one
-    double ratio = 0;           ///< rho of an adapted network
+    double diagonal = 0;  ///< of the mesh's bounding box
+    double scale = 0;     ///< rmin of an adapted network; 0 in an initial one
+    double ratio = 0;     ///< rho of an adapted network
     std::vector<NetworkNode> nodes;
     std::vector<NetworkArc> arcs;
     std::vector<NetworkSegment> segments;
