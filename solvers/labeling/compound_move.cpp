@@ -1,0 +1,154 @@
+// Compound moves for annealing: one label (or a run of labels along bonuses) is switched on, every
+// conflict partner that is on is evicted, and rules that break are mended one after the other by
+// the cheapest flip that brings the row closer to its right-hand side. Keep-labels of extraordinary
+// nodes need no special case: switching one on is the free way to mend a valence row, and evicting
+// one breaks its own row, which then sheds a segment. A flip is rejected early when the loss
+// exceeds what the caller accepts (the threshold is drawn before the move is tried).
+#include "labeling/compound_move.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace labeling {
+
+CompoundMoves::CompoundMoves(const LabelingProblem& problem, const RowSystem& rows,
+                             SearchState& state, Random& random)
+    : problem_(problem),
+      rows_(rows),
+      state_(state),
+      random_(random),
+      stamps_(problem.label_count(), 0) {}
+
+void CompoundMoves::begin() {
+    if (++stamp_ == 0) {
+        std::fill(stamps_.begin(), stamps_.end(), 0);
+        stamp_ = 1;
+    }
+}
+
+bool CompoundMoves::end(bool is_good, Value threshold, Value before) {
+    if (is_good && state_.value() - before >= threshold) return true;
+    state_.roll_back();
+    return false;
+}
+
+bool CompoundMoves::eviction_loss(Label i, Value& loss) {
+    loss = 0;
+    std::int32_t left = state_.blocker_count(i);
+    if (left == 0) return true;
+    for (Label j : problem_.conflicts_of(i)) {
+        if (!state_.is_on(j)) continue;
+        if (is_touched(j)) return false;
+        loss += state_.gain(j);
+        if (--left == 0) break;
+    }
+    return true;
+}
+
+bool CompoundMoves::switch_on(Label i) {
+    touch(i);
+    std::int32_t left = state_.blocker_count(i);
+    if (left > 0) {
+        for (Label j : problem_.conflicts_of(i)) {
+            if (!state_.is_on(j)) continue;
+            if (is_touched(j)) return false;
+            touch(j);
+            state_.flip(j);
+            if (--left == 0) break;
+        }
+    }
+    state_.flip(i);
+    return true;
+}
+
+bool CompoundMoves::flip(Label i, Value threshold) {
+    begin();
+    if (is_touched(i)) return false;
+    const Value before = state_.value();
+    if (state_.is_on(i)) {
+        if (-state_.gain(i) < threshold) return false;
+        touch(i);
+        state_.flip(i);
+    } else {
+        Value loss = 0;
+        // Bonuses among the evicted are counted twice here, so the estimate is pessimistic.
+        if (!eviction_loss(i, loss) || state_.gain(i) - loss < threshold) return false;
+        if (!switch_on(i)) return end(false, threshold, before);
+    }
+    return end(mend(before + threshold), threshold, before);
+}
+
+bool CompoundMoves::insert_run(Label i, int length, Value threshold) {
+    begin();
+    if (is_touched(i)) return false;
+    const Value before = state_.value();
+    for (Label at = i;;) {
+        if (!state_.is_on(at)) {
+            Value loss = 0;
+            if (!eviction_loss(at, loss)) break;
+            if (!switch_on(at)) return end(false, threshold, before);
+            --length;
+        } else {
+            touch(at);
+        }
+        if (length <= 0) break;
+        const auto partners = problem_.bonuses_of(at);
+        if (partners.empty()) break;
+        const auto count = static_cast<std::uint32_t>(partners.size());
+        const std::uint32_t first = random_.below(count);
+        Label next = -1;
+        for (std::uint32_t k = 0; k < count && next < 0; ++k) {
+            const Label candidate = partners[(first + k) % count].label;
+            if (!is_touched(candidate)) next = candidate;
+        }
+        if (next < 0) break;
+        at = next;
+    }
+    return end(mend(before + threshold), threshold, before);
+}
+
+bool CompoundMoves::mend(Value floor) {
+    auto& suspects = state_.suspects();
+    while (!suspects.empty()) {
+        const std::int32_t row = suspects.back();
+        suspects.pop_back();
+        while (state_.excess(row) > 0) {
+            if (!mend_row(row)) return false;
+            // Mending mostly costs; what it may still win is not worth waiting for.
+            if (state_.value() < floor) return false;
+        }
+    }
+    return true;
+}
+
+bool CompoundMoves::mend_row(std::int32_t row) {
+    Label best = -1;
+    Value best_cost = std::numeric_limits<Value>::max();
+    std::uint32_t ties = 0;
+    const bool is_random = random_.below(16) == 0;
+    for (const Term& t : rows_.terms(row)) {
+        const Label j = t.label;
+        if (state_.is_on(j) != (t.coefficient > 0) || is_touched(j)) continue;
+        Value cost = state_.gain(j);
+        if (t.coefficient < 0) {
+            Value loss = 0;
+            if (!eviction_loss(j, loss)) continue;
+            cost = loss - cost;
+        }
+        if (is_random) cost = 0;
+        if (cost < best_cost) {
+            best_cost = cost;
+            best = j;
+            ties = 1;
+        } else if (cost == best_cost && random_.below(++ties) == 0) {
+            best = j;
+        }
+    }
+    if (best < 0) return false;
+    if (!state_.is_on(best)) return switch_on(best);
+    touch(best);
+    state_.flip(best);
+    return true;
+}
+
+}  // namespace labeling

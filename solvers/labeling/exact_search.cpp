@@ -1,0 +1,199 @@
+// The exact solvers' common frame. Root propagation and decomposition first; then part by part,
+// small parts first, because thousands of them close at once and the large ones get all that is
+// left. A part of a few labels goes straight to the depth-first tree; a larger one gets a local
+// search as long as its size justifies, then branch-and-cut where an LP is linked. Value and bound
+// of the whole are the sums over the parts, so both are known at any time.
+#include "labeling/exact_search.h"
+
+#include <algorithm>
+
+#include "labeling/errors.h"
+#include "labeling/greedy.h"
+#include "labeling/local_search.h"
+#include "labeling/propagation.h"
+#include "labeling/rows.h"
+#include "labeling/run_control.h"
+#include "labeling/subproblem.h"
+#include "labeling/tree_search.h"
+
+namespace labeling {
+namespace {
+
+constexpr std::size_t kTinyPart = 24;
+constexpr std::int64_t kSearchTicksPerLabel = 1000;
+constexpr std::int64_t kDefaultWork = 300'000'000;
+
+Value sum_of_positive(const LabelingProblem& problem) {
+    Value bound = 0;
+    for (Value w : problem.weights()) bound += std::max(Value{0}, w);
+    for (const Bonus& b : problem.bonuses()) bound += b.value;
+    return bound;
+}
+
+class ExactSearch {
+public:
+    ExactSearch(const LabelingProblem& problem, const SolveOptions& options,
+                const ExactSearchOptions& exact)
+        : problem_(problem),
+          options_(options),
+          exact_(exact),
+          control_(options, exact.default_work_limit),
+          rows_(problem),
+          propagator_(problem, rows_),
+          decomposer_(problem, rows_) {}
+
+    SolveResult run() {
+        if (!propagator_.propagate_all()) return infeasible();
+        decided_ = decided_value(problem_, propagator_.values());
+        labels_.assign(problem_.label_count(), 0);
+        for (Label i = 0; i < problem_.label_count(); ++i) labels_[i] = propagator_.value(i) == 1;
+        const auto members = decomposer_.parts(propagator_);
+        for (const auto& m : members) {
+            Part part;
+            part.sub = decomposer_.extract(propagator_, m);
+            part.bound = sum_of_positive(part.sub.problem);
+            parts_.push_back(std::move(part));
+        }
+        std::stable_sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
+            return a.sub.problem.label_count() < b.sub.problem.label_count();
+        });
+        control_.spend(decomposer_.work() / 16 + problem_.label_count() / 8);
+        report();
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            if (!solve(parts_[k])) return infeasible();
+            report();
+        }
+        return result();
+    }
+
+private:
+    struct Part {
+        Subproblem sub;
+        std::optional<Solution> solution;
+        Value bound = 0;
+        bool is_done = false;
+    };
+
+    SolveResult infeasible() {
+        return finish(problem_, exact_.name, control_, std::nullopt, std::nullopt, true);
+    }
+
+    SolveResult result() {
+        std::optional<Solution> solution;
+        Value bound = decided_;
+        bool is_complete = true;
+        Solution whole{labels_, decided_};
+        for (const Part& part : parts_) {
+            bound += part.bound;
+            is_complete = is_complete && part.solution.has_value();
+            if (!part.solution) continue;
+            whole.value += part.solution->value;
+            for (std::size_t k = 0; k < part.sub.to_parent.size(); ++k) {
+                whole.labels[part.sub.to_parent[k]] = part.solution->labels[k];
+            }
+        }
+        if (is_complete) solution = std::move(whole);
+        SolveResult result = finish(problem_, exact_.name, control_, std::move(solution), bound);
+        result.statistics["parts"] = static_cast<double>(parts_.size());
+        result.statistics["nodes"] = static_cast<double>(nodes_);
+        return result;
+    }
+
+    void report() {
+        Value value = decided_, bound = decided_;
+        bool is_complete = true;
+        for (const Part& part : parts_) {
+            bound += part.bound;
+            if (part.solution) value += part.solution->value;
+            is_complete = is_complete && part.solution.has_value();
+        }
+        control_.report(is_complete ? std::optional(value) : std::nullopt, bound);
+    }
+
+    /// False: the part has no solution.
+    bool solve(Part& part) {
+        const LabelingProblem& p = part.sub.problem;
+        const RowSystem rows(p);
+        std::vector<std::int8_t> start;
+        if (!options_.warm_start.empty()) {
+            for (Label i : part.sub.to_parent) start.push_back(options_.warm_start[i]);
+        }
+        GreedyOptions greedy;
+        greedy.start = start;
+        GreedyResult found = greedy_labeling(p, rows, control_, greedy);
+        if (found.is_infeasible) return false;
+        part.solution = std::move(found.solution);
+        if (control_.is_over()) return true;
+        const auto size = part.sub.to_parent.size();
+        if (size > kTinyPart && part.solution) search(part, rows);
+        const Value lower = part.solution ? part.solution->value : kNoValue;
+        TreeResult tree = tree_search(p, lower, control_);
+        nodes_ += tree.nodes;
+        if (tree.solution) part.solution = std::move(tree.solution);
+        if (tree.bound == kNoValue) return false;
+        part.bound = std::min(part.bound, tree.bound);
+        return true;
+    }
+
+    void search(Part& part, const RowSystem& rows) {
+        RunControl::Cap cap(control_, kSearchTicksPerLabel * part.sub.problem.label_count());
+        LocalSearchOptions search;
+        search.seed = options_.seed;
+        part.solution =
+            improve_labeling(part.sub.problem, rows, control_, std::move(*part.solution), search);
+    }
+
+    const LabelingProblem& problem_;
+    const SolveOptions& options_;
+    const ExactSearchOptions& exact_;
+    RunControl control_;
+    const RowSystem rows_;
+    Propagator propagator_;
+    Decomposer decomposer_;
+    std::vector<Part> parts_;
+    std::vector<std::uint8_t> labels_;
+    Value decided_ = 0;
+    std::int64_t nodes_ = 0;
+};
+
+class ExactSolver final : public Solver {
+public:
+    explicit ExactSolver(ExactSearchOptions options) : options_(std::move(options)) {}
+    std::string name() const override { return options_.name; }
+    std::string description() const override { return options_.description; }
+    bool is_exact() const override { return true; }
+    SolveResult solve(const LabelingProblem& problem, const SolveOptions& options) const override {
+        require_valid_options(problem, options);
+        require_known_extras(options, name(), {});
+        return ExactSearch(problem, options, options_).run();
+    }
+
+private:
+    ExactSearchOptions options_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Solver> make_exact_solver(ExactSearchOptions options) {
+    return std::make_shared<ExactSolver>(std::move(options));
+}
+
+std::shared_ptr<const Solver> make_branch_and_bound_solver(LpFactory lp) {
+    ExactSearchOptions options;
+    options.name = "branch-and-bound";
+    options.description = lp ? "exact: parts, local search start, branch-and-cut with exact bounds"
+                             : "exact: parts, local search start, tree with clique cover bounds";
+    options.lp = std::move(lp);
+    return make_exact_solver(std::move(options));
+}
+
+std::shared_ptr<const Solver> make_auto_solver(LpFactory lp) {
+    ExactSearchOptions options;
+    options.name = "auto";
+    options.description = "local search start, then exact, stopped by a deterministic work limit";
+    options.default_work_limit = kDefaultWork;
+    options.lp = std::move(lp);
+    return make_exact_solver(std::move(options));
+}
+
+}  // namespace labeling

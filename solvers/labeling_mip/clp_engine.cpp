@@ -1,0 +1,190 @@
+// Clp's dual simplex behind LpEngine. Clp minimises, so objective, multipliers and reduced costs
+// change sign on the way in and out. Scaling is off: coefficients are small integers, and
+// multipliers come out as they are. Work areas and factorization are kept between solves.
+#include <ClpSimplex.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "labeling_mip/mip_solvers.h"
+
+namespace labeling {
+namespace {
+
+class ClpEngine final : public LpEngine {
+public:
+    ClpEngine() {
+        simplex_.setLogLevel(0);
+        simplex_.scaling(0);
+    }
+
+    void reset(std::span<const double> objective, std::span<const double> lower,
+               std::span<const double> upper) override {
+        simplex_ = ClpSimplex();
+        simplex_.setLogLevel(0);
+        simplex_.scaling(0);
+        simplex_.resize(0, static_cast<int>(objective.size()));
+        for (std::size_t c = 0; c < objective.size(); ++c) {
+            const int column = static_cast<int>(c);
+            simplex_.setObjectiveCoefficient(column, -objective[c]);
+            simplex_.setColumnBounds(column, lower[c], upper[c]);
+        }
+        flush_pending();
+    }
+
+    void add_row(std::span<const Entry> entries, double right_hand_side) override {
+        for (const Entry& e : entries) {
+            pending_columns_.push_back(e.column);
+            pending_coefficients_.push_back(e.coefficient);
+        }
+        pending_starts_.push_back(static_cast<CoinBigIndex>(pending_columns_.size()));
+        pending_upper_.push_back(right_hand_side);
+        pending_lower_.push_back(-COIN_DBL_MAX);
+    }
+
+    void remove_rows(std::span<const std::int32_t> rows) override {
+        flush_pending();
+        if (!rows.empty()) simplex_.deleteRows(static_cast<int>(rows.size()), rows.data());
+    }
+
+    void set_bounds(std::int32_t column, double lower, double upper) override {
+        simplex_.setColumnBounds(column, lower, upper);
+    }
+
+    std::int32_t row_count() const override {
+        return simplex_.numberRows() + static_cast<std::int32_t>(pending_upper_.size());
+    }
+
+    Outcome solve(std::int64_t max_iterations) override {
+        flush_pending();
+        constexpr std::int64_t kMost = 1'000'000'000;
+        simplex_.setNumberIterations(0);
+        simplex_.setMaximumIterations(static_cast<int>(std::min(max_iterations, kMost)));
+        simplex_.dual(0, 1);
+        iterations_ = simplex_.numberIterations();
+        // Status 0 can hide infeasibilities that appear once perturbation is removed.
+        if (simplex_.status() == 0 && simplex_.primalFeasible() && simplex_.dualFeasible()) {
+            copy_results();
+            return Outcome::Optimal;
+        }
+        switch (simplex_.status()) {
+            case 1:
+                return Outcome::Infeasible;
+            case 3:
+                copy_results();
+                return Outcome::Stopped;
+            default:
+                copy_results();
+                return Outcome::Failed;
+        }
+    }
+
+    std::int64_t iterations() const override { return iterations_; }
+    double objective() const override { return -simplex_.rawObjectiveValue(); }
+    std::span<const double> columns() const override {
+        return {simplex_.primalColumnSolution(),
+                static_cast<std::size_t>(simplex_.numberColumns())};
+    }
+    std::span<const double> activities() const override {
+        return {simplex_.primalRowSolution(), static_cast<std::size_t>(simplex_.numberRows())};
+    }
+    std::span<const double> multipliers() const override { return multipliers_; }
+    std::span<const double> reduced_costs() const override { return reduced_costs_; }
+
+    Basis basis() const override {
+        const int columns = simplex_.numberColumns(), rows = simplex_.numberRows();
+        Basis basis(columns + rows);
+        for (int c = 0; c < columns; ++c) basis[c] = translate(simplex_.getColumnStatus(c));
+        for (int r = 0; r < rows; ++r) basis[columns + r] = translate(simplex_.getRowStatus(r));
+        return basis;
+    }
+
+    void set_basis(const Basis& basis) override {
+        flush_pending();
+        const int columns = simplex_.numberColumns(), rows = simplex_.numberRows();
+        for (int c = 0; c < columns; ++c) simplex_.setColumnStatus(c, translate(basis[c]));
+        for (int r = 0; r < rows; ++r) {
+            const auto at = static_cast<std::size_t>(columns + r);
+            simplex_.setRowStatus(r, at < basis.size() ? translate(basis[at]) : ClpSimplex::basic);
+        }
+    }
+
+    std::vector<std::vector<double>> inverse_rows(std::span<const std::int32_t> wanted) override {
+        const int columns = simplex_.numberColumns(), rows = simplex_.numberRows();
+        std::vector<std::vector<double>> result(wanted.size());
+        if (simplex_.pivotVariable() == nullptr || simplex_.rowArray(1) == nullptr) return result;
+        std::vector<int> position(columns, -1);
+        for (int r = 0; r < rows; ++r) {
+            const int variable = simplex_.pivotVariable()[r];
+            if (variable >= 0 && variable < columns) position[variable] = r;
+        }
+        for (std::size_t k = 0; k < wanted.size(); ++k) {
+            if (position[wanted[k]] < 0) continue;
+            result[k].assign(rows, 0.0);
+            simplex_.getBInvRow(position[wanted[k]], result[k].data());
+        }
+        return result;
+    }
+
+private:
+    static BasisStatus translate(ClpSimplex::Status status) {
+        switch (status) {
+            case ClpSimplex::basic:
+                return BasisStatus::Basic;
+            case ClpSimplex::atUpperBound:
+                return BasisStatus::AtUpper;
+            case ClpSimplex::atLowerBound:
+            case ClpSimplex::isFixed:
+                return BasisStatus::AtLower;
+            default:
+                return BasisStatus::Free;
+        }
+    }
+    static ClpSimplex::Status translate(BasisStatus status) {
+        switch (status) {
+            case BasisStatus::Basic:
+                return ClpSimplex::basic;
+            case BasisStatus::AtUpper:
+                return ClpSimplex::atUpperBound;
+            case BasisStatus::AtLower:
+                return ClpSimplex::atLowerBound;
+            default:
+                return ClpSimplex::superBasic;
+        }
+    }
+
+    void flush_pending() {
+        if (!pending_upper_.empty()) {
+            simplex_.addRows(static_cast<int>(pending_upper_.size()), pending_lower_.data(),
+                             pending_upper_.data(), pending_starts_.data(), pending_columns_.data(),
+                             pending_coefficients_.data());
+        }
+        pending_lower_.clear();
+        pending_upper_.clear();
+        pending_columns_.clear();
+        pending_coefficients_.clear();
+        pending_starts_.assign(1, 0);
+    }
+
+    void copy_results() {
+        const int columns = simplex_.numberColumns(), rows = simplex_.numberRows();
+        multipliers_.resize(rows);
+        reduced_costs_.resize(columns);
+        for (int r = 0; r < rows; ++r) multipliers_[r] = -simplex_.dualRowSolution()[r];
+        for (int c = 0; c < columns; ++c) reduced_costs_[c] = -simplex_.dualColumnSolution()[c];
+    }
+
+    ClpSimplex simplex_;
+    std::vector<int> pending_columns_;
+    std::vector<double> pending_coefficients_, pending_lower_, pending_upper_;
+    std::vector<CoinBigIndex> pending_starts_{0};
+    std::vector<double> multipliers_, reduced_costs_;
+    std::int64_t iterations_ = 0;
+};
+
+}  // namespace
+
+LpFactory clp_factory() {
+    return [] { return std::make_unique<ClpEngine>(); };
+}
+
+}  // namespace labeling

@@ -1,0 +1,126 @@
+// labeling-solve FILE --solver NAME [--work TICKS] [--time SECONDS] [--seed N] [--gap G]
+//                     [--set KEY=VALUE] [-o SOLUTION]
+// Solves one labeling problem and prints a line: file, solver, status, stop reason, value, bound,
+// gap, work, seconds. Exit codes: 0 solved or feasible, 2 usage, 3 bad input, 4 no solution.
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <string_view>
+
+#include "labeling/errors.h"
+#include "labeling/formats.h"
+#include "labeling/solver.h"
+#ifdef LABELING_WITH_MIP
+#include "labeling_mip/mip_solvers.h"
+#endif
+
+namespace {
+
+constexpr const char* kUsage =
+    "usage: labeling-solve FILE --solver NAME [--work TICKS] [--time SECONDS] [--seed N]\n"
+    "                      [--gap G] [--set KEY=VALUE]... [--trace] [-o SOLUTION]\n";
+
+labeling::SolverRegistry solvers() {
+#ifdef LABELING_WITH_MIP
+    return labeling::all_solvers();
+#else
+    return labeling::builtin_solvers();
+#endif
+}
+
+struct Arguments {
+    std::string file, solver = "auto", output;
+    labeling::SolveOptions options;
+    bool has_trace = false;
+};
+
+Arguments parse(int argc, char** argv) {
+    Arguments arguments;
+    for (int k = 1; k < argc; ++k) {
+        const std::string_view word = argv[k];
+        auto next = [&]() -> std::string {
+            if (k + 1 >= argc) throw labeling::InputError(std::string(word) + " needs a value");
+            return argv[++k];
+        };
+        if (word == "--solver") {
+            arguments.solver = next();
+        } else if (word == "--work") {
+            arguments.options.work_limit = static_cast<std::int64_t>(std::stod(next()));
+        } else if (word == "--time") {
+            arguments.options.time_limit = std::chrono::duration<double>(std::stod(next()));
+        } else if (word == "--seed") {
+            arguments.options.seed = std::stoull(next());
+        } else if (word == "--gap") {
+            arguments.options.relative_gap = std::stod(next());
+        } else if (word == "--set") {
+            const std::string pair = next();
+            const std::size_t at = pair.find('=');
+            if (at == std::string::npos) throw labeling::InputError("--set needs KEY=VALUE");
+            arguments.options.extra[pair.substr(0, at)] = pair.substr(at + 1);
+        } else if (word == "--trace") {
+            arguments.has_trace = true;
+        } else if (word == "-o") {
+            arguments.output = next();
+        } else if (arguments.file.empty() && !word.starts_with("-")) {
+            arguments.file = word;
+        } else {
+            throw labeling::InputError("unknown argument '" + std::string(word) + "'");
+        }
+    }
+    if (arguments.file.empty()) throw labeling::InputError("no problem file given");
+    return arguments;
+}
+
+void print_trace(const labeling::TracePoint& point) {
+    std::fprintf(stderr, "%10.3f s %12lld", point.seconds, static_cast<long long>(point.work));
+    if (point.value) std::fprintf(stderr, "  value %lld", static_cast<long long>(*point.value));
+    if (point.bound) std::fprintf(stderr, "  bound %lld", static_cast<long long>(*point.bound));
+    std::fputc('\n', stderr);
+}
+
+int run(const Arguments& arguments) {
+    const auto problem = labeling::read_problem(arguments.file);
+    const auto solver = solvers().find(arguments.solver);
+    auto options = arguments.options;
+    if (arguments.has_trace) options.on_improvement = print_trace;
+    const labeling::SolveResult result = solver->solve(problem, options);
+    const double units = problem.units_per_one();
+    std::printf("%s %s %s %s", arguments.file.c_str(), arguments.solver.c_str(),
+                std::string(labeling::to_string(result.status)).c_str(),
+                std::string(labeling::to_string(result.stop_reason)).c_str());
+    if (result.solution) {
+        std::printf(" value %.4f", static_cast<double>(result.solution->value) / units);
+    }
+    if (result.bound) std::printf(" bound %.4f", static_cast<double>(*result.bound) / units);
+    if (result.relative_gap()) std::printf(" gap %.5f%%", 100 * *result.relative_gap());
+    std::printf(" work %lld seconds %.3f", static_cast<long long>(result.work), result.seconds);
+    for (const auto& [key, value] : result.statistics) std::printf(" %s %g", key.c_str(), value);
+    if (!result.message.empty()) std::printf(" (%s)", result.message.c_str());
+    std::printf("\n");
+    if (!arguments.output.empty() && result.solution) {
+        labeling::write_solution(*result.solution, arguments.output);
+    }
+    return result.solution ? 0 : 4;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Arguments arguments;
+    try {
+        arguments = parse(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "labeling-solve: %s\n%s", error.what(), kUsage);
+        return 2;
+    }
+    try {
+        return run(arguments);
+    } catch (const labeling::InputError& error) {
+        std::fprintf(stderr, "labeling-solve: %s\n", error.what());
+        return 3;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "labeling-solve: internal error: %s\n", error.what());
+        return 1;
+    }
+}
