@@ -20,22 +20,22 @@ enum class ThinWalls { Exempt, Conflict };
 
 /// Every constant of the paper and of DESIGN section 4.
 struct AdaptationOptions {
-    double rmin = 0;                   ///< scale, mesh units, > 0
-    double ratio = 1.5;                ///< rmax / rmin in [1.01, sqrt(3))
+    double rmin = 0;     ///< scale, mesh units, > 0
+    double ratio = 1.5;  ///< rmax / rmin in [1.01, sqrt(3))
     AdaptationMode mode = AdaptationMode::Best;
     ElementType target = ElementType::Triangle;
     LabelUnit unit = LabelUnit::Segment;
     ThinWalls thin_walls = ThinWalls::Exempt;
-    double lambda0 = 100;              ///< weight of smoothness U_s, >= 0
-    double lambda1 = -1;               ///< weight of U_par,perp; -1: 0 for triangles, 10 for quads
+    double lambda0 = 100;  ///< weight of smoothness U_s, >= 0
+    double lambda1 = -1;   ///< weight of U_par,perp; -1: 0 for triangles, 10 for quads
     double alpha_sym = 2;
-    double alpha_loop = 100;
-    double smooth_power = 2;           ///< p of a_s = cos^p(2 gamma)
-    double ortho_radius = 2;           ///< reach of a_par,perp in rmax
-    int max_iterations = 50;           ///< safety net with its own status
+    double alpha_loop = -1;              ///< -1: 100 in paper mode, 4 in best mode
+    double smooth_power = 2;             ///< p of a_s = cos^p(2 gamma)
+    double ortho_radius = 2;             ///< reach of a_par,perp in rmax
+    int max_iterations = 50;             ///< safety net with its own status
     bool is_recording_problems = false;  ///< keep every iteration's problem in the report
     int threads = 1;
-    labeling::SolveOptions solve;      ///< limits, seed
+    labeling::SolveOptions solve;                    ///< limits, seed
     std::shared_ptr<const labeling::Solver> solver;  ///< required
     std::function<void(const std::string& phase, double fraction)> progress;
     std::stop_token stop;
@@ -61,7 +61,14 @@ struct IterationReport {
     labeling::StopReason stop_reason = labeling::StopReason::Finished;
     double value = 0, bound = 0;  ///< real units; bound = NaN when none was proven
     double units_per_one = 1;
-    std::map<std::string, double> seconds;  ///< by phase: resample, conflicts, weights, solve, collapse
+    std::map<std::string, double>
+        seconds;  ///< by phase: resample, conflicts, weights, solve, collapse
+};
+
+/// Two segments of the final network that a thin wall parts although they are close in space.
+struct ThinWallPair {
+    int first = -1, second = -1;
+    double distance = 0;
 };
 
 struct AdaptationReport {
@@ -74,6 +81,7 @@ struct AdaptationReport {
     /// Sharpness-weighted share of the initial feature length within rmin of the final network.
     double coverage = 0;
     double initial_length = 0, final_length = 0;
+    std::vector<ThinWallPair> exempt;  ///< at the end
     std::vector<std::string> warnings;
     double seconds = 0;
 };

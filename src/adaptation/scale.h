@@ -9,16 +9,16 @@ enum class ElementType { Triangle, Quad };
 struct ScaleInterval {
     double rmin = 0;
     double rmax = 0;
-    double height = 0;     ///< h = sqrt(rmin^2 - rmax^2 / 4): the flattest triangle's height
+    double height = 0;  ///< h = sqrt(rmin^2 - rmax^2 / 4): the flattest triangle's height
     double alpha_min = 0;
     double alpha_max = 0;
-    int multiples = 3;     ///< k = 1 .. multiples
+    int multiples = 3;              ///< k = 1 .. multiples
     double triangle_alpha_min = 0;  ///< of the triangle criterion, whatever the target
     ElementType target = ElementType::Triangle;
 
     double ratio() const { return rmax / rmin; }
-    bool contains(double length) const;         ///< in [rmin, rmax], relative tolerance 1e-6
-    bool is_feasible_angle(double angle) const; ///< in the union of [k a_min, k a_max], tol. 1e-6
+    bool contains(double length) const;          ///< in [rmin, rmax], relative tolerance 1e-6
+    bool is_feasible_angle(double angle) const;  ///< in the union of [k a_min, k a_max], tol. 1e-6
 };
 
 /// Relative tolerance of every conformity test.

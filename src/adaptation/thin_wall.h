@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "geometry/surface_queries.h"
+
+namespace fcn {
+
+/// Says whether a thin wall parts two points that are close in space: surface normals with dot
+/// product <= -0.5 and a surface distance of at least `surface_distance`. The distance is never
+/// overestimated: a path of that length stays inside a ball around the midpoint, so the points
+/// are parted exactly when the faces in that ball do not connect them. Const and thread-safe.
+class ThinWallTest {
+public:
+    ThinWallTest(const Mesh& mesh, const SurfaceQueries& queries, double surface_distance);
+    bool operator()(const Vec3& a, const Vec3& b) const;
+
+private:
+    Vec3 normal_at(const SurfacePoint& point) const;
+    bool is_connected_inside(int from, int to, const Vec3& center, double radius) const;
+
+    const Mesh& mesh_;
+    const SurfaceQueries& queries_;
+    double surface_distance_;
+};
+
+}  // namespace fcn
