@@ -16,7 +16,7 @@ void read_header(TextCursor& in) {
     if (kind.starts_with("C")) kind.remove_prefix(1);
     if (kind.starts_with("N")) kind.remove_prefix(1);
     if (kind != "OFF") {
-        in.fail("expected the word OFF, found " + quoted(word) +
+        in.fail("expected the word OFF, found " + shown(word) +
                 (word.ends_with("OFF") ? " (only three-dimensional OFF is read)" : ""));
     }
     if (in.peek() == "BINARY") in.fail("binary OFF is not supported, save as text");

@@ -15,15 +15,13 @@ bool is_newline(char c) { return c == '\n' || c == '\r'; }
 
 }  // namespace
 
-std::string quoted(std::string_view token) {
+std::string shown(std::string_view token) {
     constexpr std::size_t kLongest = 40;
-    std::string text = "'";
-    for (char c : token.substr(0, kLongest)) {
-        text +=
-            (static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) > 126) ? '?' : c;
-    }
-    if (token.size() > kLongest) text += "...";
-    return text + "'";
+    std::string text(1, '\'');
+    for (char c : token.substr(0, kLongest)) text.push_back(c < 32 || c > 126 ? '?' : c);
+    if (token.size() > kLongest) text.append(3, '.');
+    text.push_back('\'');
+    return text;
 }
 
 TextCursor::TextCursor(std::string_view text, std::string source, char comment)
@@ -116,9 +114,9 @@ double TextCursor::parse_number(std::string_view token, std::string_view what) c
         // from_chars does not tell overflow from underflow; strtod does.
         value = std::strtod(std::string(digits).c_str(), nullptr);
     } else if (error != std::errc() || end != digits.data() + digits.size()) {
-        fail("expected " + std::string(what) + ", a number, found " + quoted(token));
+        fail("expected " + std::string(what) + ", a number, found " + shown(token));
     }
-    if (!std::isfinite(value)) fail(std::string(what) + " is not finite: " + quoted(token));
+    if (!std::isfinite(value)) fail(std::string(what) + " is not finite: " + shown(token));
     return value;
 }
 
@@ -129,7 +127,7 @@ std::int64_t TextCursor::parse_integer(std::string_view token, std::string_view 
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc() || end != digits.data() + digits.size()) {
-        fail("expected " + std::string(what) + ", an integer, found " + quoted(token));
+        fail("expected " + std::string(what) + ", an integer, found " + shown(token));
     }
     return value;
 }
@@ -156,8 +154,8 @@ std::size_t TextCursor::count(std::string_view what, std::size_t bytes_each) {
 void TextCursor::expect(std::string_view word) {
     const std::string_view found = token();
     if (found != word) {
-        fail("expected " + quoted(word) + ", found " +
-             (found.empty() ? std::string("the end of the file") : quoted(found)));
+        fail("expected " + shown(word) + ", found " +
+             (found.empty() ? std::string("the end of the file") : shown(found)));
     }
 }
 

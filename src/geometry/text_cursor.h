@@ -57,6 +57,6 @@ private:
 };
 
 /// A token fit for a message: shortened, in quotes, control characters replaced.
-std::string quoted(std::string_view token);
+std::string shown(std::string_view token);
 
 }  // namespace fcn

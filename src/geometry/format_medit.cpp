@@ -1,0 +1,100 @@
+// Medit .mesh (text): Vertices, Triangles and Quadrilaterals with their reference numbers, which
+// are labels unless all are the same. Other sections are walked over token by token until the next
+// keyword, so that sections we do not know are no obstacle.
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+
+#include "geometry/mesh_formats.h"
+#include "geometry/text_cursor.h"
+#include "geometry/text_writer.h"
+
+namespace fcn {
+
+namespace {
+
+void read_vertices(TextCursor& in, PolygonSoup& soup) {
+    const std::size_t count = in.count("the number of vertices", 8);
+    soup.points.reserve(soup.points.size() + count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double x = in.number("a vertex coordinate");
+        const double y = in.number("a vertex coordinate");
+        const double z = in.number("a vertex coordinate");
+        in.number("a vertex reference");
+        soup.points.emplace_back(x, y, z);
+    }
+}
+
+void read_polygons(TextCursor& in, PolygonSoup& soup, int corner_count) {
+    const std::size_t count = in.count("the number of faces", 8);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (int corner = 0; corner < corner_count; ++corner) {
+            const std::int64_t index = in.integer("a vertex index");
+            if (index < 1 || static_cast<std::size_t>(index) > soup.points.size()) {
+                in.fail("vertex index " + std::to_string(index) + " is out of range, " +
+                        std::to_string(soup.points.size()) + " vertices so far");
+            }
+            soup.corners.push_back(static_cast<int>(index - 1));
+        }
+        soup.close_polygon();
+        const std::int64_t label = in.integer("a face reference");
+        if (label != static_cast<int>(label)) in.fail("a face reference is out of range");
+        soup.labels.push_back(static_cast<int>(label));
+    }
+}
+
+bool is_keyword(std::string_view token) {
+    return !token.empty() && std::isalpha(static_cast<unsigned char>(token.front())) &&
+           token != "nan" && token != "inf";
+}
+
+}  // namespace
+
+PolygonSoup read_medit(std::string_view content, const std::string& source) {
+    TextCursor in(content, source, '#');
+    PolygonSoup soup;
+    in.expect("MeshVersionFormatted");
+    in.integer("the format version");
+    for (std::string_view word = in.token(); !word.empty() && word != "End"; word = in.token()) {
+        if (word == "Dimension") {
+            const std::int64_t dimension = in.integer("the dimension");
+            if (dimension != 3) {
+                in.fail("the dimension is " + std::to_string(dimension) + ", only 3 is read");
+            }
+        } else if (word == "Vertices") {
+            read_vertices(in, soup);
+        } else if (word == "Triangles") {
+            read_polygons(in, soup, 3);
+        } else if (word == "Quadrilaterals") {
+            read_polygons(in, soup, 4);
+        } else if (is_keyword(word)) {
+            while (!in.peek().empty() && !is_keyword(in.peek())) in.token();
+        } else {
+            in.fail("expected a keyword, found " + shown(word));
+        }
+    }
+    const bool is_uniform = std::adjacent_find(soup.labels.begin(), soup.labels.end(),
+                                               std::not_equal_to<>()) == soup.labels.end();
+    if (is_uniform) soup.labels.clear();
+    return soup;
+}
+
+std::string write_medit(const LoadedMesh& loaded) {
+    const Mesh& mesh = loaded.mesh;
+    TextWriter out;
+    out << "MeshVersionFormatted 2\nDimension 3\n";
+    if (!loaded.units.empty()) out << "# units: " << loaded.units << '\n';
+    out << "Vertices\n" << mesh.n_vertices() << '\n';
+    for (const auto vertex : mesh.vertices()) out << mesh.point(vertex) << " 0\n";
+    out << "Triangles\n" << mesh.n_faces() << '\n';
+    for (const auto face : mesh.faces()) {
+        const auto [a, b, c] = face_vertices(mesh, face);
+        out << a.idx() + 1 << ' ' << b.idx() + 1 << ' ' << c.idx() + 1 << ' '
+            << label_of(loaded, face.idx()) << '\n';
+    }
+    out << "End\n";
+    return out.take();
+}
+
+}  // namespace fcn
