@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "geometry/surface_queries.h"
+#include "meshing/coarsening.h"
+
+namespace fcn {
+
+struct IsotropicOptions {
+    double edge_length = 0;
+    int iterations = 10;
+    bool is_protecting = true;  ///< marked edges are left alone; false: curves may be re-cut
+    bool is_projecting = true;  ///< back onto the reference surface after every iteration
+};
+
+struct IsotropicResult {
+    bool has_succeeded = false;
+    std::string failure;  ///< what CGAL said
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<int> face_labels;
+    std::vector<std::array<int, 2>> feature_edges;
+    std::vector<int> station_vertex;
+    std::size_t lost_features = 0;  ///< feature edges that the remesher did not respect
+};
+
+/// CGAL's isotropic_remeshing of a marked mesh; its exceptions come back as a failure.
+IsotropicResult remesh_isotropic(const MarkedMesh& marked, const SurfaceQueries& reference,
+                                 const IsotropicOptions& options);
+
+}  // namespace fcn

@@ -1,0 +1,307 @@
+#include "meshing/remesh.h"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <map>
+#include <random>
+#include <set>
+
+#include "geometry/errors.h"
+#include "meshing/measure.h"
+#include "sample_meshes.h"
+#include "sample_networks.h"
+
+namespace fcn {
+namespace {
+
+constexpr double kCrease = 0.7;  ///< radians
+
+double nearest_vertex(const Mesh& mesh, const Vec3& point) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const VertexHandle vertex : mesh.vertices())
+        best = std::min(best, (mesh.point(vertex) - point).norm());
+    return best;
+}
+
+int vertex_at(const Mesh& mesh, const Vec3& point) {
+    for (const VertexHandle vertex : mesh.vertices())
+        if ((mesh.point(vertex) - point).norm() <= 1e-9) return vertex.idx();
+    return -1;
+}
+
+std::size_t boundary_edges(const Mesh& mesh) {
+    std::size_t count = 0;
+    for (const EdgeHandle edge : mesh.edges()) count += mesh.is_boundary(edge);
+    return count;
+}
+
+int euler(const Mesh& mesh) {
+    return static_cast<int>(mesh.n_vertices()) - static_cast<int>(mesh.n_edges()) +
+           static_cast<int>(mesh.n_faces());
+}
+
+double area_of(const Mesh& mesh) {
+    double area = 0;
+    for (const FaceHandle face : mesh.faces()) area += face_area(mesh, face);
+    return area;
+}
+
+/// What holds for every result: one manifold piece of surface of the same topology, nodes and
+/// feature edges in it, no degenerate face.
+void expect_sound(const LoadedMesh& input, const FeatureCurveNetwork& network,
+                  const RemeshResult& result) {
+    const Mesh& mesh = result.mesh.mesh;
+    ASSERT_GT(mesh.n_faces(), 0U);
+    EXPECT_EQ(euler(mesh), euler(input.mesh));
+    EXPECT_EQ(boundary_edges(mesh) == 0, boundary_edges(input.mesh) == 0);
+    for (const VertexHandle vertex : mesh.vertices()) {
+        EXPECT_TRUE(mesh.is_manifold(vertex));
+        EXPECT_FALSE(mesh.is_isolated(vertex));
+        EXPECT_TRUE(mesh.point(vertex).allFinite());
+    }
+    EXPECT_GT(measure_triangles(mesh).min_angle_degrees, 0);
+    for (const NetworkNode& node : network.nodes)
+        EXPECT_LE(nearest_vertex(mesh, node.position), 1e-9);
+    for (const auto& [a, b] : result.feature_edges)
+        EXPECT_TRUE(mesh.find_halfedge(VertexHandle(a), VertexHandle(b)).is_valid());
+}
+
+/// Every segment of [0.8, 4/3] L is one edge and listed as a feature.
+void expect_segments_are_edges(const FeatureCurveNetwork& network, const RemeshResult& result,
+                               double edge_length) {
+    const std::set<std::array<int, 2>> features(result.feature_edges.begin(),
+                                                result.feature_edges.end());
+    const Mesh& mesh = result.mesh.mesh;
+    for (const NetworkSegment& segment : network.segments) {
+        const Vec3 from = network.nodes[static_cast<std::size_t>(segment.nodes[0])].position;
+        const Vec3 to = network.nodes[static_cast<std::size_t>(segment.nodes[1])].position;
+        if ((to - from).norm() > 4.0 / 3 * edge_length) continue;
+        const int a = vertex_at(mesh, from), b = vertex_at(mesh, to);
+        ASSERT_TRUE(a >= 0 && b >= 0);
+        EXPECT_TRUE(mesh.find_halfedge(VertexHandle(a), VertexHandle(b)).is_valid());
+        EXPECT_TRUE(features.count({a, b}) || features.count({b, a}));
+    }
+}
+
+TEST(Remesh, CubeKeepsItsEdgesAsSegments) {
+    const LoadedMesh mesh = test::cube(17);
+    for (const double rmin : {0.05, 0.1, 0.3}) {
+        const FeatureCurveNetwork network =
+            test::cut_evenly(test::crease_network(mesh.mesh, kCrease), rmin);
+        ASSERT_EQ(network.arcs.size(), 12U);
+        RemeshOptions options;
+        options.edge_length = 1.2 * rmin;
+        const RemeshResult result = remesh_with_cgal(mesh, network, options);
+        EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
+        expect_sound(mesh, network, result);
+        expect_segments_are_edges(network, result, options.edge_length);
+        EXPECT_EQ(result.feature_edges.size(), network.segments.size());
+        // With all its edges kept the cube is exact: same surface, area 6.
+        EXPECT_NEAR(area_of(result.mesh.mesh), 6, 1e-6);
+        EXPECT_LT(measure_distance(result.mesh.mesh, mesh.mesh, 0.05).hausdorff, 1e-9);
+        EXPECT_GT(measure_triangles(result.mesh.mesh).min_angle_degrees, 15);
+    }
+}
+
+TEST(Remesh, CoarseCubeIsRefined) {
+    const LoadedMesh mesh = test::cube(1);
+    const FeatureCurveNetwork network =
+        test::cut_evenly(test::crease_network(mesh.mesh, kCrease), 0.1);
+    RemeshOptions options;
+    options.edge_length = 0.12;
+    const RemeshResult result = remesh_with_cgal(mesh, network, options);
+    EXPECT_TRUE(result.warnings.empty());
+    expect_sound(mesh, network, result);
+    expect_segments_are_edges(network, result, options.edge_length);
+    EXPECT_NEAR(area_of(result.mesh.mesh), 6, 1e-6);
+}
+
+TEST(Remesh, ChordsOfACurvedRimBecomeSingleEdges) {
+    const LoadedMesh mesh = test::cylinder(0.5, 96, 24);
+    const FeatureCurveNetwork creases = test::crease_network(mesh.mesh, kCrease);
+    ASSERT_EQ(creases.arcs.size(), 2U);
+    for (const double rmin : {0.06, 0.15, 0.35}) {
+        const FeatureCurveNetwork network = test::cut_evenly(creases, rmin);
+        RemeshOptions options;
+        options.edge_length = 1.2 * rmin;
+        const RemeshResult result = remesh_with_cgal(mesh, network, options);
+        EXPECT_TRUE(result.warnings.empty()) << "rmin " << rmin << ": " << result.warnings.front();
+        expect_sound(mesh, network, result);
+        expect_segments_are_edges(network, result, options.edge_length);
+    }
+}
+
+TEST(Remesh, InitialNetworkIsCutIntoEvenPieces) {
+    const LoadedMesh mesh = test::cylinder(0.5, 96, 24);
+    const FeatureCurveNetwork network = test::crease_network(mesh.mesh, kCrease);
+    RemeshOptions options;
+    options.edge_length = 0.15;
+    const RemeshResult result = remesh_with_cgal(mesh, network, options);
+    EXPECT_TRUE(result.warnings.empty());
+    expect_sound(mesh, network, result);
+    std::size_t pieces = 0;
+    for (const NetworkArc& arc : network.arcs)
+        pieces += static_cast<std::size_t>(std::lround(arc.length() / options.edge_length));
+    EXPECT_EQ(result.feature_edges.size(), pieces);
+    for (const auto& [a, b] : result.feature_edges) {
+        const double length =
+            (result.mesh.mesh.point(VertexHandle(a)) - result.mesh.mesh.point(VertexHandle(b)))
+                .norm();
+        EXPECT_NEAR(length, options.edge_length, 0.1 * options.edge_length);
+    }
+}
+
+TEST(Remesh, LongSegmentIsSplitOnce) {
+    LoadedMesh mesh;
+    mesh.mesh = test::rectangle(1, 1, 20, 20);
+    FeatureCurveNetwork network;
+    network.scale = 0.1;
+    const auto node = [&](double x) { network.nodes.push_back({{x, 0.503, 0}, {}}); };
+    node(0.4);
+    node(0.6);  // 2 rmin = 1.67 L
+    NetworkArc arc;
+    arc.nodes = {0, 1};
+    arc.samples = {{network.nodes[0].position, {}}, {network.nodes[1].position, {}}};
+    network.arcs.push_back(arc);
+    network.segments.push_back({{0, 1}, 0, 0, 1, 1, true});
+    RemeshOptions options;
+    options.edge_length = 0.12;
+    const RemeshResult result = remesh_with_cgal(mesh, network, options);
+    EXPECT_TRUE(result.warnings.empty());
+    expect_sound(mesh, network, result);
+    EXPECT_EQ(result.feature_edges.size(), 2U);
+    EXPECT_LE(nearest_vertex(result.mesh.mesh, {0.5, 0.503, 0}), 1e-9);
+}
+
+TEST(Remesh, BoundaryIsKeptWithoutANetwork) {
+    LoadedMesh mesh;
+    mesh.mesh = test::rectangle(1, 0.7, 30, 30);
+    RemeshOptions options;
+    options.edge_length = 0.1;
+    const RemeshResult result = remesh_with_cgal(mesh, {}, options);
+    expect_sound(mesh, {}, result);
+    for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 0.7, 0), Vec3(0, 0.7, 0)})
+        EXPECT_LE(nearest_vertex(result.mesh.mesh, corner), 1e-12);
+    for (const EdgeHandle edge : result.mesh.mesh.edges()) {
+        if (!result.mesh.mesh.is_boundary(edge)) continue;
+        const Vec3 middle = result.mesh.mesh.calc_edge_midpoint(edge);
+        EXPECT_NEAR(std::min({middle[0], middle[1], 1 - middle[0], 0.7 - middle[1]}), 0, 1e-12);
+    }
+    EXPECT_NEAR(area_of(result.mesh.mesh), 0.7, 1e-9);
+    EXPECT_TRUE(result.feature_edges.empty());
+}
+
+TEST(Remesh, LabelsTravelAndTheirBordersStay) {
+    const LoadedMesh mesh = test::cube(12, true);
+    ASSERT_EQ(mesh.face_labels.size(), mesh.mesh.n_faces());
+    for (const bool has_network : {true, false}) {
+        const FeatureCurveNetwork network =
+            has_network ? test::cut_evenly(test::crease_network(mesh.mesh, kCrease), 0.1)
+                        : FeatureCurveNetwork{};
+        RemeshOptions options;
+        options.edge_length = 0.12;
+        const RemeshResult result = remesh_with_cgal(mesh, network, options);
+        expect_sound(mesh, network, result);
+        ASSERT_EQ(result.mesh.face_labels.size(), result.mesh.mesh.n_faces());
+        std::map<int, double> area;
+        for (const FaceHandle face : result.mesh.mesh.faces()) {
+            const int label = result.mesh.face_labels[static_cast<std::size_t>(face.idx())];
+            area[label] += face_area(result.mesh.mesh, face);
+            // Sides in the order of the sample: z = 0, z = 1, y = 0, y = 1, x = 0, x = 1.
+            const Vec3 middle = result.mesh.mesh.calc_face_centroid(face);
+            ASSERT_TRUE(label >= 0 && label < 6);
+            EXPECT_NEAR(middle[2 - label / 2], label % 2, 1e-9);
+        }
+        for (int label = 0; label < 6; ++label) EXPECT_NEAR(area[label], 1, 1e-6);
+    }
+}
+
+TEST(Remesh, PlainRemeshingIgnoresTheNetwork) {
+    const LoadedMesh mesh = test::cube(10);
+    const FeatureCurveNetwork network =
+        test::cut_evenly(test::crease_network(mesh.mesh, kCrease), 0.1);
+    RemeshOptions options;
+    options.edge_length = 0.12;
+    options.is_protecting = false;
+    const RemeshResult result = remesh_with_cgal(mesh, network, options);
+    expect_sound(mesh, {}, result);
+    EXPECT_TRUE(result.feature_edges.empty());
+}
+
+TEST(Remesh, SameResultOnAnyNumberOfThreads) {
+    const LoadedMesh mesh = test::cylinder(0.5, 64, 16);
+    const FeatureCurveNetwork network =
+        test::cut_evenly(test::crease_network(mesh.mesh, kCrease), 0.1);
+    RemeshOptions options;
+    options.edge_length = 0.12;
+    const auto with = [&](std::size_t threads) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        return remesh_with_cgal(mesh, network, options);
+    };
+    const RemeshResult one = with(1), many = with(4);
+    EXPECT_EQ(one.mesh.hash, many.mesh.hash);
+    EXPECT_NE(one.mesh.hash, 0U);
+    EXPECT_EQ(one.feature_edges, many.feature_edges);
+}
+
+/// Straight lines between random points of a square, some of which cross, touch or coincide.
+FeatureCurveNetwork random_lines(std::mt19937_64& engine, int count) {
+    // Coordinates on a lattice as coarse as the mesh, so that lines hit vertices and run in edges.
+    const auto coordinate = [&] { return static_cast<double>(engine() % 41) / 40; };
+    FeatureCurveNetwork network;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 from(coordinate(), coordinate(), 0), to(coordinate(), coordinate(), 0);
+        if ((to - from).norm() < 0.05) continue;
+        const int first = static_cast<int>(network.nodes.size());
+        network.nodes.push_back({from, {}});
+        network.nodes.push_back({to, {}});
+        NetworkArc arc;
+        arc.nodes = {first, first + 1};
+        const int steps = 1 + static_cast<int>(engine() % 30);
+        for (int k = 0; k <= steps; ++k) {
+            const double t = static_cast<double>(k) / steps;
+            arc.samples.push_back({(1 - t) * from + t * to, {}});
+        }
+        network.arcs.push_back(arc);
+    }
+    return network;
+}
+
+TEST(Remesh, SurvivesCurvesThatCrossTouchAndCoincide) {
+    LoadedMesh mesh;
+    mesh.mesh = test::rectangle(1, 1, 20, 20);
+    for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        std::mt19937_64 engine(seed);
+        const FeatureCurveNetwork network = random_lines(engine, 1 + static_cast<int>(seed % 12));
+        RemeshOptions options;
+        options.edge_length = 0.02 + 0.02 * static_cast<double>(engine() % 8);
+        options.iterations = 3;
+        const RemeshResult result = remesh_with_cgal(mesh, network, options);
+        expect_sound(mesh, network, result);
+        EXPECT_NEAR(area_of(result.mesh.mesh), 1, 1e-9);
+        for (const std::string& warning : result.warnings) {
+            EXPECT_EQ(warning.find("could not be embedded"), std::string::npos) << warning;
+            EXPECT_EQ(warning.find("CGAL"), std::string::npos) << warning;
+        }
+    }
+}
+
+TEST(Remesh, ImpossibleInputIsRefused) {
+    const LoadedMesh mesh = test::cube(2);
+    RemeshOptions options;
+    EXPECT_THROW(remesh_with_cgal(mesh, {}, options), InputError);
+    options.edge_length = -1;
+    EXPECT_THROW(remesh_with_cgal(mesh, {}, options), InputError);
+    options.edge_length = 1e-9;
+    EXPECT_THROW(remesh_with_cgal(mesh, {}, options), InputError);
+    options.edge_length = 0.3;
+    EXPECT_THROW(remesh_with_cgal({}, {}, options), InputError);
+    FeatureCurveNetwork network;
+    network.segments.push_back({{0, 1}, 0, 0, 1, 1, false});
+    EXPECT_THROW(remesh_with_cgal(mesh, network, options), InputError);
+}
+
+}  // namespace
+}  // namespace fcn
