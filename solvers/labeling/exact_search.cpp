@@ -8,19 +8,15 @@
 #include <algorithm>
 
 #include "labeling/errors.h"
-#include "labeling/greedy.h"
-#include "labeling/local_search.h"
+#include "labeling/part_search.h"
 #include "labeling/propagation.h"
 #include "labeling/rows.h"
 #include "labeling/run_control.h"
 #include "labeling/subproblem.h"
-#include "labeling/tree_search.h"
 
 namespace labeling {
 namespace {
 
-constexpr std::size_t kTinyPart = 24;
-constexpr std::int64_t kSearchTicksPerLabel = 1000;
 constexpr std::int64_t kDefaultWork = 300'000'000;
 
 Value sum_of_positive(const LabelingProblem& problem) {
@@ -70,8 +66,8 @@ private:
     struct Part {
         Subproblem sub;
         std::optional<Solution> solution;
+        Value value = kNoValue;  ///< best known, kNoValue: none
         Value bound = 0;
-        bool is_done = false;
     };
 
     SolveResult infeasible() {
@@ -95,7 +91,10 @@ private:
         if (is_complete) solution = std::move(whole);
         SolveResult result = finish(problem_, exact_.name, control_, std::move(solution), bound);
         result.statistics["parts"] = static_cast<double>(parts_.size());
-        result.statistics["nodes"] = static_cast<double>(nodes_);
+        result.statistics["nodes"] = static_cast<double>(statistics_.nodes);
+        result.statistics["lp-iterations"] = static_cast<double>(statistics_.lp_iterations);
+        result.statistics["clique-cuts"] = static_cast<double>(statistics_.clique_cuts);
+        result.statistics["gomory-cuts"] = static_cast<double>(statistics_.gomory_cuts);
         return result;
     }
 
@@ -104,8 +103,8 @@ private:
         bool is_complete = true;
         for (const Part& part : parts_) {
             bound += part.bound;
-            if (part.solution) value += part.solution->value;
-            is_complete = is_complete && part.solution.has_value();
+            if (part.value != kNoValue) value += part.value;
+            is_complete = is_complete && part.value != kNoValue;
         }
         control_.report(is_complete ? std::optional(value) : std::nullopt, bound);
     }
@@ -113,34 +112,25 @@ private:
     /// False: the part has no solution.
     bool solve(Part& part) {
         const LabelingProblem& p = part.sub.problem;
-        const RowSystem rows(p);
         std::vector<std::int8_t> start;
         if (!options_.warm_start.empty()) {
             for (Label i : part.sub.to_parent) start.push_back(options_.warm_start[i]);
         }
-        GreedyOptions greedy;
-        greedy.start = start;
-        GreedyResult found = greedy_labeling(p, rows, control_, greedy);
-        if (found.is_infeasible) return false;
-        part.solution = std::move(found.solution);
-        if (control_.is_over()) return true;
-        const auto size = part.sub.to_parent.size();
-        if (size > kTinyPart && part.solution) search(part, rows);
-        const Value lower = part.solution ? part.solution->value : kNoValue;
-        TreeResult tree = tree_search(p, lower, control_);
-        nodes_ += tree.nodes;
+        PartSearchOptions search;
+        search.lp = exact_.lp;
+        search.seed = options_.seed;
+        search.start = start;
+        search.report = [&](std::optional<Value> value, std::optional<Value> bound) {
+            if (value && (!part.solution || *value > part.value)) part.value = *value;
+            if (bound) part.bound = std::min(part.bound, *bound);
+            report();
+        };
+        TreeResult tree = search_part(p, control_, search, &statistics_);
         if (tree.solution) part.solution = std::move(tree.solution);
+        if (part.solution) part.value = part.solution->value;
         if (tree.bound == kNoValue) return false;
         part.bound = std::min(part.bound, tree.bound);
         return true;
-    }
-
-    void search(Part& part, const RowSystem& rows) {
-        RunControl::Cap cap(control_, kSearchTicksPerLabel * part.sub.problem.label_count());
-        LocalSearchOptions search;
-        search.seed = options_.seed;
-        part.solution =
-            improve_labeling(part.sub.problem, rows, control_, std::move(*part.solution), search);
     }
 
     const LabelingProblem& problem_;
@@ -153,7 +143,7 @@ private:
     std::vector<Part> parts_;
     std::vector<std::uint8_t> labels_;
     Value decided_ = 0;
-    std::int64_t nodes_ = 0;
+    BranchAndCutStatistics statistics_;
 };
 
 class ExactSolver final : public Solver {

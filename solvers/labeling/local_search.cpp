@@ -101,6 +101,7 @@ public:
           parts_(problem, rows),
           best_(std::move(start)),
           reported_(best_.value),
+          start_temperature_(options.start_temperature),
           chain_work_(options.first_chain) {
         for (Label i = 0; i < problem.label_count(); ++i) {
             if (problem.weight(i) > 0 || !problem.bonuses_of(i).empty()) proposals_.push_back(i);
@@ -118,7 +119,7 @@ public:
 
     void run() {
         if (proposals_.empty()) return;
-        for (double hot = 3.0; !control_.should_stop();) {
+        for (double hot = start_temperature_; !control_.should_stop();) {
             anneal(hot * scale_, 0.03 * scale_);
             descend();
             recombine();
@@ -268,6 +269,7 @@ private:
     std::vector<Label> since_best_;  ///< flips from the best to the current labeling
     bool is_tracking_ = true;        ///< since_best_ is complete
     double scale_ = 1;
+    const double start_temperature_;
     std::int64_t chain_work_, longest_chain_ = 0;
     std::array<double, std::size_t{1} << kLogTableBits> log_table_{};
 };

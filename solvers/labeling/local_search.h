@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "labeling/problem.h"
@@ -16,6 +17,8 @@ struct LocalSearchOptions {
     /// Work of the first annealing chain in ticks; each further chain is longer by half, up to 16
     /// times. 0 = chosen from the size.
     std::int64_t first_chain = 0;
+    /// Temperature at which the first chain begins, in medians of (weight + half the bonuses).
+    double start_temperature = 3.0;
 };
 
 struct LocalSearchStatistics {

@@ -43,6 +43,10 @@ public:
     virtual std::span<const double> multipliers() const = 0;
     virtual std::span<const double> reduced_costs() const = 0;
 
+    /// After Infeasible: one number per row, up to sign and scale multipliers of a contradiction;
+    /// empty when the solver has none.
+    virtual std::vector<double> infeasibility_ray() = 0;
+
     virtual Basis basis() const = 0;
     virtual void set_basis(const Basis& basis) = 0;
 

@@ -90,6 +90,12 @@ public:
     std::span<const double> multipliers() const override { return multipliers_; }
     std::span<const double> reduced_costs() const override { return reduced_costs_; }
 
+    std::vector<double> infeasibility_ray() override {
+        const std::unique_ptr<double[]> ray(simplex_.infeasibilityRay());
+        if (!ray) return {};
+        return {ray.get(), ray.get() + simplex_.numberRows()};
+    }
+
     Basis basis() const override {
         const int columns = simplex_.numberColumns(), rows = simplex_.numberRows();
         Basis basis(columns + rows);

@@ -1,0 +1,613 @@
+// LP-based branch and cut on the term formulation: a column per label and per bonus, rows from
+// cliques of the term conflict graph (conflicts, links and implications in one), rules as lazy
+// rows, Gomory cuts at the root once cliques stall. Exactness: a node is pruned, and a label fixed
+// by its reduced cost, only on bounds recomputed in integers (relaxation.cpp); solutions are
+// complete propagated assignments with integer values. When fixing at the root has shrunk the
+// problem by a third or split it, the rest is handed back to be solved as smaller problems, with
+// new cliques and a smaller LP. The tree dives into the child that looks better and continues with
+// the best bound; the label to branch on is chosen by strong branching with few iterations, later
+// by pseudo costs (Achterberg, Koch & Martin 2005).
+#include "labeling/branch_and_cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "labeling/clique_cuts.h"
+#include "labeling/gomory_cuts.h"
+#include "labeling/greedy.h"
+#include "labeling/local_search.h"
+#include "labeling/node_state.h"
+#include "labeling/rows.h"
+#include "labeling/subproblem.h"
+#include "labeling/term_graph.h"
+
+namespace labeling {
+namespace {
+
+constexpr std::int64_t kEntriesPerTick = 16;
+constexpr std::int64_t kNoIterationLimit = std::int64_t{1} << 40;
+constexpr double kIntegrality = 1e-6;
+constexpr std::size_t kMostOpenNodes = 20000;
+
+class BranchAndCut {
+public:
+    BranchAndCut(const LabelingProblem& problem, const std::optional<Solution>& start, Value lower,
+                 RunControl& control, const BranchAndCutOptions& options)
+        : problem_(problem),
+          control_(control),
+          options_(options),
+          rows_(problem),
+          propagator_(problem, rows_),
+          is_consistent_(propagator_.propagate_all()),
+          graph_(problem, propagator_),
+          relaxation_(problem, options.lp),
+          state_(problem, propagator_, relaxation_),
+          separator_(problem, graph_),
+          best_value_(lower),
+          pseudo_costs_(problem.label_count()) {
+        if (start && start->value > lower) {
+            result_.solution = start;
+            best_value_ = start->value;
+        }
+    }
+
+    TreeResult run() {
+        if (is_consistent_ && fix_impossible()) {
+            for (Cut& cut : initial_clique_cuts(problem_, graph_)) relaxation_.add(std::move(cut));
+            charge(graph_.work());
+            solve_root();
+        }
+        result_.bound = std::max(best_value_, open_bound_);
+        return std::move(result_);
+    }
+
+    BranchAndCutStatistics statistics;
+
+private:
+    struct Decision {
+        Label label;
+        bool value;
+    };
+    struct Node {
+        std::vector<Decision> decisions;
+        Value bound = 0;
+        std::shared_ptr<const Relaxation::SavedBasis> basis;
+        std::int64_t number = 0;
+    };
+    struct WorseNode {
+        bool operator()(const Node& a, const Node& b) const {
+            return a.bound != b.bound ? a.bound < b.bound : a.number < b.number;
+        }
+    };
+    struct PseudoCost {
+        double sum[2] = {0, 0};
+        int count[2] = {0, 0};
+    };
+    enum class NodeOutcome { Pruned, Branch, Stopped };
+
+    bool charge(std::int64_t entries) { return control_.spend(entries / kEntriesPerTick + 1); }
+
+    bool fix_impossible() {
+        for (TermGraph::Node v : graph_.impossible()) {
+            if (graph_.is_off_node(v)) {
+                if (!state_.assign(graph_.column(v), true)) return false;
+            } else if (v < graph_.label_count()) {
+                if (!state_.assign(v, false)) return false;
+            } else {
+                state_.forbid_bonus(v - graph_.label_count());
+            }
+        }
+        return true;
+    }
+
+    bool is_prunable(Value bound) const { return bound <= best_value_; }
+
+    // ---- root -------------------------------------------------------------------------------
+
+    void solve_root() {
+        const NodeOutcome outcome = cut_root();
+        root_bound_ = std::min(root_bound_, relaxation_.bound());
+        if (outcome == NodeOutcome::Pruned) return;
+        if (outcome == NodeOutcome::Stopped) {
+            open_bound_ = root_bound_;
+            return;
+        }
+        if (hand_back()) return;
+        search_tree();
+    }
+
+    NodeOutcome cut_root() {
+        double last = 0;
+        int stalled = 0, gomory_rounds = 0;
+        for (int round = 0;; ++round) {
+            const auto lp = relaxation_.solve(control_, kNoIterationLimit);
+            statistics.lp_iterations += relaxation_.engine().iterations();
+            root_bound_ = std::min(root_bound_, relaxation_.bound());
+            if (is_prunable(root_bound_)) return NodeOutcome::Pruned;
+            if (options_.report && root_bound_ < kHuge) options_.report(std::nullopt, root_bound_);
+            if (lp == LpEngine::Outcome::Failed || lp == LpEngine::Outcome::Infeasible) {
+                return NodeOutcome::Branch;
+            }
+            if (control_.should_stop()) return NodeOutcome::Stopped;
+            if (!fix_by_bounds(true)) return NodeOutcome::Pruned;
+            if (add_violated_rules() > 0) continue;
+            if (accept_if_integral()) {
+                if (is_prunable(root_bound_)) return NodeOutcome::Pruned;
+                return NodeOutcome::Branch;
+            }
+            const double bound = static_cast<double>(relaxation_.bound());
+            const double gap = bound - static_cast<double>(std::max(best_value_, Value{0}));
+            const bool is_stalled = round > 0 && last - bound < 0.01 * std::max(1.0, gap);
+            stalled = is_stalled ? stalled + 1 : 0;
+            last = bound;
+            if (round % 8 == 3 || (stalled == 1)) polish();
+            if (is_prunable(root_bound_)) return NodeOutcome::Pruned;
+            std::size_t added = 0;
+            if (stalled < 3) added = add_cliques({});
+            if (added == 0 || stalled >= 2) {
+                if (gomory_rounds++ >= kMostGomoryRounds || stalled > 8) {
+                    return NodeOutcome::Branch;
+                }
+                added += add_gomory();
+            }
+            if (added == 0) return NodeOutcome::Branch;
+            if (round % 5 == 4) relaxation_.drop_slack_rows(4);
+        }
+    }
+
+    std::size_t add_cliques(const CliqueCutOptions& options) {
+        const std::int64_t before = separator_.work();
+        std::size_t added = 0;
+        for (Cut& cut : separator_.separate(relaxation_.x(), options)) {
+            added += relaxation_.add(std::move(cut)) ? 1 : 0;
+        }
+        charge(separator_.work() - before);
+        statistics.clique_cuts += static_cast<std::int64_t>(added);
+        return added;
+    }
+
+    std::size_t add_gomory() {
+        std::int64_t work = 0;
+        std::size_t added = 0;
+        for (Cut& cut : gomory_cuts(relaxation_, {}, work)) {
+            added += relaxation_.add(std::move(cut)) ? 1 : 0;
+        }
+        charge(work);
+        statistics.gomory_cuts += static_cast<std::int64_t>(added);
+        return added;
+    }
+
+    std::size_t add_violated_rules() {
+        const auto x = relaxation_.x();
+        std::size_t added = 0;
+        std::int64_t entries = 0;
+        for (std::int32_t r = 0; r < rows_.row_count(); ++r) {
+            double activity = 0;
+            for (const Term& t : rows_.terms(r)) activity += t.coefficient * x[t.label];
+            entries += static_cast<std::int64_t>(rows_.terms(r).size());
+            if (activity <= static_cast<double>(rows_.right_hand_side(r)) + 1e-6) continue;
+            Cut cut;
+            cut.right_hand_side = rows_.right_hand_side(r);
+            for (const Term& t : rows_.terms(r)) cut.entries.push_back({t.label, t.coefficient});
+            added += relaxation_.add(std::move(cut)) ? 1 : 0;
+        }
+        charge(entries);
+        statistics.rule_rows += static_cast<std::int64_t>(added);
+        return added;
+    }
+
+    /// Fixes what the exact bound allows; false when that leaves no better solution.
+    bool fix_by_bounds(bool is_root) {
+        if (best_value_ == kNoValue) return true;
+        for (bool is_new = true; is_new;) {
+            is_new = false;
+            for (Label i = 0; i < problem_.label_count(); ++i) {
+                if (!propagator_.is_free(i)) continue;
+                const bool no_one = is_prunable(relaxation_.bound_if(i, true));
+                const bool no_zero = is_prunable(relaxation_.bound_if(i, false));
+                if (no_one && no_zero) return false;
+                if (!no_one && !no_zero) continue;
+                if (!state_.assign(i, no_zero)) return false;
+                ++statistics.fixed_labels;
+            }
+        }
+        if (!is_root) return true;
+        for (std::int32_t k = 0; k < graph_.bonus_count(); ++k) {
+            const std::int32_t column = problem_.label_count() + k;
+            if (relaxation_.is_fixed(column)) continue;
+            if (is_prunable(relaxation_.bound_if(column, true))) state_.forbid_bonus(k);
+        }
+        return true;
+    }
+
+    /// The rest as smaller problems, if that pays; true when it did the job.
+    bool hand_back() {
+        if (!options_.solve_rest) return false;
+        Decomposer decomposer(problem_, rows_);
+        const auto parts = decomposer.parts(propagator_);
+        const Label free = propagator_.free_count();
+        const bool is_smaller = 3 * free < 2 * problem_.label_count();
+        if (!is_smaller && parts.size() < 2) return false;
+        const Value decided = decided_value(problem_, propagator_.values());
+        Solution whole;
+        whole.labels.resize(problem_.label_count());
+        for (Label i = 0; i < problem_.label_count(); ++i) {
+            whole.labels[i] = propagator_.value(i) == 1;
+        }
+        whole.value = decided;
+        Value bound = decided;
+        bool is_complete = true;
+        for (const auto& part : parts) {
+            const Subproblem sub = decomposer.extract(propagator_, part);
+            const std::optional<Solution> start = restricted(sub);
+            TreeResult rest = options_.solve_rest(sub.problem, start, kNoValue);
+            result_.nodes += rest.nodes;
+            if (rest.bound == kNoValue && !rest.solution) return true;  // no better solution
+            bound += rest.bound;
+            if (!rest.solution) {
+                is_complete = false;
+                continue;
+            }
+            whole.value += rest.solution->value;
+            for (std::size_t k = 0; k < part.size(); ++k) {
+                whole.labels[part[k]] = rest.solution->labels[k];
+            }
+        }
+        if (is_complete && whole.value > best_value_) accept(std::move(whole));
+        open_bound_ = std::min(root_bound_, bound);
+        return true;
+    }
+
+    /// The best solution on a part, where it is feasible there.
+    std::optional<Solution> restricted(const Subproblem& sub) const {
+        if (!result_.solution) return std::nullopt;
+        Solution start;
+        for (Label i : sub.to_parent) start.labels.push_back(result_.solution->labels[i]);
+        start.value = labeling_value(sub.problem, start.labels);
+        if (!check_solution(sub.problem, start).is_feasible) return std::nullopt;
+        return start;
+    }
+
+    // ---- solutions --------------------------------------------------------------------------
+
+    void accept(Solution solution) {
+        best_value_ = solution.value;
+        result_.solution = std::move(solution);
+        if (options_.report) options_.report(best_value_, std::nullopt);
+    }
+
+    /// Rounds an integral LP solution; true when it was integral and feasible.
+    bool accept_if_integral() {
+        const auto x = relaxation_.x();
+        Solution solution;
+        solution.labels.resize(problem_.label_count());
+        for (Label i = 0; i < problem_.label_count(); ++i) {
+            if (std::min(x[i], 1 - x[i]) > kIntegrality) return false;
+            solution.labels[i] = x[i] > 0.5;
+        }
+        solution.value = labeling_value(problem_, solution.labels);
+        if (!check_solution(problem_, solution).is_feasible) return false;
+        if (solution.value > best_value_) accept(std::move(solution));
+        return true;
+    }
+
+    /// Completes the rounded LP solution greedily and improves it a little.
+    void polish() {
+        std::vector<std::int8_t> start(problem_.label_count(), -1);
+        const auto x = relaxation_.x();
+        for (Label i = 0; i < problem_.label_count(); ++i) {
+            if (x[i] > 0.5) start[i] = 1;
+        }
+        GreedyOptions greedy;
+        greedy.start = start;
+        greedy.max_backtracks = 100;
+        GreedyResult found = greedy_labeling(problem_, rows_, control_, greedy);
+        if (!found.solution) return;
+        RunControl::Cap cap(control_, 40 * std::int64_t{problem_.label_count()});
+        LocalSearchOptions search;
+        search.seed = options_.seed + 1000 + static_cast<std::uint64_t>(polish_count_++);
+        search.start_temperature = 0.25;
+        search.first_chain = 15 * std::int64_t{problem_.label_count()};
+        Solution better =
+            improve_labeling(problem_, rows_, control_, std::move(*found.solution), search);
+        if (better.value > best_value_) accept(std::move(better));
+    }
+
+    // ---- tree -------------------------------------------------------------------------------
+
+    void search_tree() {
+        root_size_ = state_.size();
+        Node current;
+        current.bound = root_bound_;
+        bool has_current = true;
+        while (true) {
+            if (!has_current) {
+                while (!open_.empty() && is_prunable(open_.top().bound)) open_.pop();
+                if (open_.empty()) return;
+                current = open_.top();
+                open_.pop();
+                if (!load(current)) continue;
+            }
+            has_current = false;
+            ++statistics.nodes;
+            ++result_.nodes;
+            const NodeOutcome outcome = process(current);
+            if (outcome == NodeOutcome::Pruned) continue;
+            if (outcome == NodeOutcome::Stopped) {
+                remember_open(current.bound);
+                return;
+            }
+            report_bound(current.bound);
+            has_current = branch(current);
+            if (control_.should_stop()) {
+                if (has_current) open_.push(std::move(current));
+                remember_open(kNoValue);
+                return;
+            }
+        }
+    }
+
+    void remember_open(Value bound) {
+        open_bound_ = std::max(open_bound_, bound);
+        if (!open_.empty()) open_bound_ = std::max(open_bound_, open_.top().bound);
+        open_bound_ = std::min(open_bound_, root_bound_);
+    }
+
+    void report_bound(Value current) {
+        Value bound = current;
+        if (!open_.empty()) bound = std::max(bound, open_.top().bound);
+        if (options_.report) {
+            options_.report(std::nullopt, std::max(best_value_, std::min(bound, root_bound_)));
+        }
+    }
+
+    /// Goes to a node that was left; false when it turns out contradictory.
+    bool load(const Node& node) {
+        state_.undo(root_size_);
+        for (const Decision& d : node.decisions) {
+            if (!state_.assign(d.label, d.value)) return false;
+        }
+        if (node.basis) relaxation_.restore_basis(*node.basis);
+        return true;
+    }
+
+    NodeOutcome process(Node& node) {
+        for (int round = 0;; ++round) {
+            const auto lp = relaxation_.solve(control_, kNoIterationLimit);
+            statistics.lp_iterations += relaxation_.engine().iterations();
+            node.bound = std::min(node.bound, relaxation_.bound());
+            if (is_prunable(node.bound)) return NodeOutcome::Pruned;
+            if (control_.should_stop()) return NodeOutcome::Stopped;
+            if (propagator_.free_count() == 0) return settle_leaf(node);
+            if (lp == LpEngine::Outcome::Failed || lp == LpEngine::Outcome::Infeasible) {
+                return NodeOutcome::Branch;
+            }
+            const std::size_t before = state_.size();
+            if (!fix_by_bounds(false)) return NodeOutcome::Pruned;
+            if (add_violated_rules() > 0) continue;
+            if (state_.size() > before + 4 && round < 10) continue;
+            if (accept_if_integral() && is_prunable(node.bound)) return NodeOutcome::Pruned;
+            if (result_.nodes % 16 == 1 && round == 0) polish();
+            if (round >= kNodeRounds || add_cliques({0.01, 200, 200}) == 0) break;
+        }
+        if (relaxation_.row_count() > kDropFactor * first_row_count()) {
+            relaxation_.drop_slack_rows(20);
+        }
+        return NodeOutcome::Branch;
+    }
+
+    std::int32_t first_row_count() const { return 1000 + 2 * relaxation_.column_count(); }
+
+    /// All labels are decided and consistent: the value is exact.
+    NodeOutcome settle_leaf(const Node&) {
+        Solution solution;
+        solution.labels.resize(problem_.label_count());
+        for (Label i = 0; i < problem_.label_count(); ++i) {
+            solution.labels[i] = propagator_.value(i) == 1;
+        }
+        solution.value = labeling_value(problem_, solution.labels);
+        if (solution.value > best_value_) accept(std::move(solution));
+        return NodeOutcome::Pruned;
+    }
+
+    /// Branches; the better child becomes current, the other is left open. False: no child is left
+    /// to go to directly.
+    bool branch(Node& node) {
+        const auto basis = std::make_shared<const Relaxation::SavedBasis>(relaxation_.save_basis());
+        const std::size_t size = state_.size();
+        bool is_settled = false;
+        const Label label = choose(node, *basis, is_settled);
+        if (is_settled) return false;
+        if (label < 0) return true;  // strong branching decided labels: same node again
+        const double x = std::clamp(relaxation_x_[label], 0.0, 1.0);
+        const bool first_value = x > 0.4;
+        Node other = node;
+        other.decisions.push_back({label, !first_value});
+        other.basis = basis;
+        other.number = ++node_number_;
+        const Value other_bound = first_value ? child_bounds_.first : child_bounds_.second;
+        other.bound = std::min(node.bound, other_bound);
+        if (!is_prunable(other.bound)) open_.push(std::move(other));
+        if (open_.size() > kMostOpenNodes) drop_worst();
+        node.decisions.push_back({label, first_value});
+        const Value bound = first_value ? child_bounds_.second : child_bounds_.first;
+        node.bound = std::min(node.bound, bound);
+        state_.undo(size);
+        if (is_prunable(node.bound) || !state_.assign(label, first_value)) return false;
+        return true;
+    }
+
+    /// Memory bound: forgets every open node but remembers the largest bound.
+    void drop_worst() {
+        std::vector<Node> kept;
+        while (!open_.empty() && kept.size() < kMostOpenNodes / 2) {
+            kept.push_back(open_.top());
+            open_.pop();
+        }
+        if (!open_.empty()) open_bound_ = std::max(open_bound_, open_.top().bound);
+        open_ = {};
+        for (Node& node : kept) open_.push(std::move(node));
+    }
+
+    double score(Label i, double x) const {
+        const PseudoCost& cost = pseudo_costs_[i];
+        const double down = cost.count[0] > 0 ? cost.sum[0] / cost.count[0] : average_cost_;
+        const double up = cost.count[1] > 0 ? cost.sum[1] / cost.count[1] : average_cost_;
+        return std::max(1e-6, down * x) * std::max(1e-6, up * (1 - x));
+    }
+
+    /// Label to branch on. -1: labels were decided instead and the node must be solved again.
+    Label choose(Node& node, const Relaxation::SavedBasis& basis, bool& is_settled) {
+        relaxation_x_.assign(relaxation_.x().begin(), relaxation_.x().end());
+        child_bounds_ = {node.bound, node.bound};
+        std::vector<std::pair<double, Label>> candidates;
+        for (Label i = 0; i < problem_.label_count(); ++i) {
+            if (!propagator_.is_free(i)) continue;
+            const double x = relaxation_x_[i];
+            if (x > kIntegrality && x < 1 - kIntegrality) {
+                const double weight = 1e-3 * worth(i);
+                candidates.emplace_back(score(i, x) * (1 + weight), i);
+            }
+        }
+        if (candidates.empty()) {
+            for (Label i = 0; i < problem_.label_count(); ++i) {
+                if (propagator_.is_free(i)) return i;
+            }
+            is_settled = true;
+            return -1;
+        }
+        std::stable_sort(candidates.begin(), candidates.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        return strong_branch(node, basis, candidates, is_settled);
+    }
+
+    double worth(Label i) const {
+        double sum = static_cast<double>(problem_.weight(i));
+        for (const auto& b : problem_.bonuses_of(i)) sum += static_cast<double>(b.value);
+        return sum / std::max(1.0, static_cast<double>(std::abs(root_bound_)));
+    }
+
+    Label strong_branch(Node& node, const Relaxation::SavedBasis& basis,
+                        const std::vector<std::pair<double, Label>>& candidates, bool& is_settled) {
+        Label best = candidates[0].second;
+        double best_score = -1;
+        int tried = 0, without_gain = 0;
+        bool has_decided = false;
+        for (const auto& [score_now, i] : candidates) {
+            if (tried >= kMostStrong || without_gain >= kPatience || control_.should_stop()) break;
+            const PseudoCost& cost = pseudo_costs_[i];
+            double gains[2];
+            Value bounds[2] = {node.bound, node.bound};
+            if (std::min(cost.count[0], cost.count[1]) >= kReliable) {
+                gains[0] = cost.sum[0] / cost.count[0] * relaxation_x_[i];
+                gains[1] = cost.sum[1] / cost.count[1] * (1 - relaxation_x_[i]);
+            } else {
+                ++tried;
+                for (int value : {0, 1}) bounds[value] = probe(i, value == 1, node.bound);
+                relaxation_.restore_basis(basis);
+                if (is_prunable(bounds[0]) && is_prunable(bounds[1])) {
+                    is_settled = true;
+                    return -1;
+                }
+                if (is_prunable(bounds[0]) || is_prunable(bounds[1])) {
+                    if (!state_.assign(i, is_prunable(bounds[0]))) {
+                        is_settled = true;
+                        return -1;
+                    }
+                    node.decisions.push_back({i, is_prunable(bounds[0])});
+                    has_decided = true;
+                    if (++without_gain >= 2) break;
+                    continue;
+                }
+                for (int value : {0, 1}) {
+                    gains[value] = static_cast<double>(node.bound - bounds[value]);
+                    const double distance = value == 0 ? relaxation_x_[i] : 1 - relaxation_x_[i];
+                    learn(i, value, gains[value] / std::max(1e-6, distance));
+                }
+            }
+            const double score = std::max(1.0, gains[0]) * std::max(1.0, gains[1]);
+            ++without_gain;
+            if (score > best_score) {
+                best_score = score;
+                best = i;
+                child_bounds_ = {bounds[0], bounds[1]};
+                without_gain = 0;
+            }
+        }
+        return has_decided ? -1 : best;
+    }
+
+    /// Bound of a child after a few dual simplex iterations.
+    Value probe(Label i, bool value, Value parent) {
+        const std::size_t size = state_.size();
+        Value bound = kNoValue;
+        if (state_.assign(i, value)) {
+            relaxation_.solve(control_, kStrongIterations);
+            statistics.lp_iterations += relaxation_.engine().iterations();
+            bound = std::min(parent, relaxation_.bound());
+        }
+        state_.undo(size);
+        return bound;
+    }
+
+    void learn(Label i, int value, double gain) {
+        pseudo_costs_[i].sum[value] += gain;
+        ++pseudo_costs_[i].count[value];
+        total_cost_ += gain;
+        ++cost_count_;
+        average_cost_ = total_cost_ / static_cast<double>(cost_count_);
+    }
+
+    static constexpr Value kHuge = Value{1} << 60;
+    static constexpr int kMostGomoryRounds = 30;
+    static constexpr int kNodeRounds = 3;
+    static constexpr int kMostStrong = 12;
+    static constexpr int kPatience = 6;
+    static constexpr int kReliable = 4;
+    static constexpr int kDropFactor = 1;
+    static constexpr std::int64_t kStrongIterations = 60;
+
+    const LabelingProblem& problem_;
+    RunControl& control_;
+    const BranchAndCutOptions& options_;
+    const RowSystem rows_;
+    Propagator propagator_;
+    const bool is_consistent_;
+    TermGraph graph_;
+    Relaxation relaxation_;
+    NodeState state_;
+    CliqueSeparator separator_;
+    TreeResult result_;
+    Value best_value_;
+    Value root_bound_ = kHuge, open_bound_ = kNoValue;
+    std::size_t root_size_ = 0;
+    std::priority_queue<Node, std::vector<Node>, WorseNode> open_;
+    std::int64_t node_number_ = 0;
+    std::vector<double> relaxation_x_;
+    std::pair<Value, Value> child_bounds_;  ///< of the chosen label at 0 and at 1
+    std::vector<PseudoCost> pseudo_costs_;
+    double total_cost_ = 0, average_cost_ = 1;
+    std::int64_t cost_count_ = 0;
+    int polish_count_ = 0;
+};
+
+}  // namespace
+
+TreeResult branch_and_cut(const LabelingProblem& problem, const std::optional<Solution>& start,
+                          Value lower, RunControl& control, const BranchAndCutOptions& options,
+                          BranchAndCutStatistics* statistics) {
+    BranchAndCut search(problem, start, lower, control, options);
+    TreeResult result = search.run();
+    if (statistics != nullptr) {
+        statistics->nodes += search.statistics.nodes;
+        statistics->lp_iterations += search.statistics.lp_iterations;
+        statistics->clique_cuts += search.statistics.clique_cuts;
+        statistics->gomory_cuts += search.statistics.gomory_cuts;
+        statistics->rule_rows += search.statistics.rule_rows;
+        statistics->fixed_labels += search.statistics.fixed_labels;
+    }
+    return result;
+}
+
+}  // namespace labeling

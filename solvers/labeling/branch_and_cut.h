@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "labeling/lp_engine.h"
+#include "labeling/problem.h"
+#include "labeling/run_control.h"
+#include "labeling/solution.h"
+#include "labeling/tree_search.h"
+
+namespace labeling {
+
+struct BranchAndCutOptions {
+    LpFactory lp;
+    std::uint64_t seed = 1;
+    /// Called with every better value (of the whole problem given) and bound.
+    std::function<void(std::optional<Value>, std::optional<Value>)> report;
+    /// Solves what is left when fixing by bounds has shrunk or split the problem at the root:
+    /// problem, start (may be absent), and the lower limit of the value.
+    std::function<TreeResult(const LabelingProblem&, const std::optional<Solution>&, Value)>
+        solve_rest;
+};
+
+struct BranchAndCutStatistics {
+    std::int64_t nodes = 0, lp_iterations = 0, clique_cuts = 0, gomory_cuts = 0, rule_rows = 0;
+    std::int64_t fixed_labels = 0;
+};
+
+/// LP-based branch and cut for one connected problem. `start`, if given, is feasible. Looks for
+/// solutions of value > lower; every bound it prunes with is exact.
+TreeResult branch_and_cut(const LabelingProblem& problem, const std::optional<Solution>& start,
+                          Value lower, RunControl& control, const BranchAndCutOptions& options,
+                          BranchAndCutStatistics* statistics = nullptr);
+
+}  // namespace labeling

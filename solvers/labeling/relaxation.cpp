@@ -1,0 +1,213 @@
+// Exact bounds from a floating-point LP. For any multipliers y >= 0,
+//   max { c x : A x <= b, l <= x <= u }  <=  y b + sum_j max over x_j in [l_j, u_j] of (c - y A)_j
+//   x_j,
+// so we round the solver's multipliers to multiples of 2^-20 and evaluate the right side in 128-bit
+// integers (Neumaier & Shcherbina 2004 do the same with interval arithmetic). The objective handed
+// to the solver is divided by a power of two, so nothing is lost there. Infeasibility is believed
+// only when the solver's ray proves it the same way.
+#include "labeling/relaxation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "labeling/tree_search.h"
+
+namespace labeling {
+namespace {
+
+constexpr Value kHugeBound = Value{1} << 60;
+
+std::uint64_t hash_of(const Cut& cut) {
+    std::uint64_t h = static_cast<std::uint64_t>(cut.right_hand_side) * 0x9e3779b97f4a7c15ULL;
+    for (const Cut::Entry& e : cut.entries) {
+        h ^= (static_cast<std::uint64_t>(e.column) << 32) ^
+             static_cast<std::uint32_t>(e.coefficient);
+        h *= 0xbf58476d1ce4e5b9ULL;
+        h ^= h >> 29;
+    }
+    return h;
+}
+
+Value floor_shift(Int128 number, int shift) { return static_cast<Value>(number >> shift); }
+
+}  // namespace
+
+Relaxation::Relaxation(const LabelingProblem& problem, const LpFactory& factory)
+    : engine_(factory()), objective_(problem.weights().begin(), problem.weights().end()) {
+    for (const Bonus& b : problem.bonuses()) objective_.push_back(b.value);
+    lower_.assign(objective_.size(), 0);
+    upper_.assign(objective_.size(), 1);
+    Value largest = 1;
+    for (Value c : objective_) largest = std::max(largest, std::abs(c));
+    while (static_cast<double>(largest) / scale_ > 2048) scale_ *= 2;
+    while (static_cast<double>(largest) / scale_ < 512) scale_ /= 2;
+    std::vector<double> objective, lower(objective_.size(), 0.0), upper(objective_.size(), 1.0);
+    for (Value c : objective_) objective.push_back(static_cast<double>(c) / scale_);
+    engine_->reset(objective, lower, upper);
+    bound_ = kHugeBound;
+}
+
+bool Relaxation::add(Cut cut) {
+    const std::uint64_t hash = hash_of(cut);
+    if (row_hashes_[hash]++ > 0) {
+        // Equal hashes of different rows cost a cut, never correctness.
+        --row_hashes_[hash];
+        return false;
+    }
+    std::vector<LpEngine::Entry> entries;
+    entries.reserve(cut.entries.size());
+    for (const Cut::Entry& e : cut.entries) {
+        entries.push_back({e.column, static_cast<double>(e.coefficient)});
+    }
+    engine_->add_row(entries, static_cast<double>(cut.right_hand_side));
+    rows_.push_back({std::move(cut), next_id_++, 0, hash});
+    return true;
+}
+
+void Relaxation::fix(std::int32_t column, bool value) {
+    lower_[column] = upper_[column] = value ? 1 : 0;
+    engine_->set_bounds(column, value, value);
+}
+
+void Relaxation::unfix(std::int32_t column) {
+    lower_[column] = 0;
+    upper_[column] = 1;
+    engine_->set_bounds(column, 0, 1);
+}
+
+LpEngine::Outcome Relaxation::solve(RunControl& control, std::int64_t max_iterations) {
+    constexpr std::int64_t kChunk = 1000;
+    bound_ = kHugeBound;
+    while (true) {
+        const std::int64_t chunk = std::min(kChunk, max_iterations);
+        const auto outcome = engine_->solve(chunk);
+        max_iterations -= engine_->iterations();
+        const std::int64_t size = row_count() + column_count();
+        const bool must_stop = control.spend(size / 20 + engine_->iterations() * size / 50);
+        if (outcome == LpEngine::Outcome::Infeasible) {
+            if (prove_infeasible()) {
+                bound_ = kNoValue;
+            }
+            return outcome;
+        }
+        if (outcome != LpEngine::Outcome::Stopped || must_stop || max_iterations <= 0) {
+            compute_bound();
+            if (outcome == LpEngine::Outcome::Optimal) age_rows();
+            return outcome == LpEngine::Outcome::Stopped || outcome == LpEngine::Outcome::Optimal
+                       ? outcome
+                       : LpEngine::Outcome::Failed;
+        }
+    }
+}
+
+void Relaxation::compute_bound() {
+    const auto multipliers = engine_->multipliers();
+    reduced_.resize(objective_.size());
+    for (std::size_t c = 0; c < objective_.size(); ++c) {
+        reduced_[c] = static_cast<Int128>(objective_[c]) << kShift;
+    }
+    scaled_bound_ = 0;
+    const double factor = std::ldexp(scale_, kShift);
+    for (std::size_t r = 0; r < rows_.size() && r < multipliers.size(); ++r) {
+        const double y = multipliers[r] * factor;
+        if (!(y >= 0.5) || y > 1e18) continue;
+        const auto rounded = static_cast<std::int64_t>(y + 0.5);
+        scaled_bound_ += static_cast<Int128>(rounded) * rows_[r].cut.right_hand_side;
+        for (const Cut::Entry& e : rows_[r].cut.entries) {
+            reduced_[e.column] -= static_cast<Int128>(rounded) * e.coefficient;
+        }
+    }
+    for (std::size_t c = 0; c < objective_.size(); ++c) {
+        if (lower_[c] == 1 || (upper_[c] == 1 && reduced_[c] > 0)) scaled_bound_ += reduced_[c];
+    }
+    constexpr Int128 kHuge = static_cast<Int128>(kHugeBound) << kShift;
+    bound_ = scaled_bound_ < kHuge ? floor_shift(scaled_bound_, kShift) : kHugeBound;
+}
+
+bool Relaxation::prove_infeasible() {
+    const std::vector<double> ray = engine_->infeasibility_ray();
+    if (ray.size() != rows_.size()) return false;
+    double largest = 0;
+    for (double y : ray) largest = std::max(largest, std::abs(y));
+    if (!(largest > 0)) return false;
+    // The sign of a ray is a matter of convention: try both.
+    for (const double sign : {1.0, -1.0}) {
+        const double factor = sign * std::ldexp(1.0, 30) / largest;
+        Int128 side = 0;
+        std::vector<Int128> sums(objective_.size(), 0);
+        for (std::size_t r = 0; r < rows_.size(); ++r) {
+            const double y = ray[r] * factor;
+            if (!(y >= 0.5)) continue;
+            const auto rounded = static_cast<std::int64_t>(y + 0.5);
+            side += static_cast<Int128>(rounded) * rows_[r].cut.right_hand_side;
+            for (const Cut::Entry& e : rows_[r].cut.entries) {
+                sums[e.column] += static_cast<Int128>(rounded) * e.coefficient;
+            }
+        }
+        for (std::size_t c = 0; c < sums.size(); ++c) {
+            if (lower_[c] == 1 || (upper_[c] == 1 && sums[c] < 0)) side -= sums[c];
+        }
+        if (side < 0) return true;
+    }
+    return false;
+}
+
+Value Relaxation::bound_if(std::int32_t column, bool value) const {
+    if (bound_ >= kHugeBound || bound_ == kNoValue || is_fixed(column)) return bound_;
+    const Int128 reduced = reduced_[column];
+    Int128 bound = scaled_bound_;
+    if (value && reduced < 0) bound += reduced;
+    if (!value && reduced > 0) bound -= reduced;
+    return floor_shift(bound, kShift);
+}
+
+void Relaxation::age_rows() {
+    const auto activities = engine_->activities();
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        const double slack = static_cast<double>(rows_[r].cut.right_hand_side) - activities[r];
+        rows_[r].slack_age = slack > 1e-6 ? rows_[r].slack_age + 1 : 0;
+    }
+}
+
+void Relaxation::drop_slack_rows(int age) {
+    std::vector<std::int32_t> dropped;
+    std::size_t kept = 0;
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        if (rows_[r].slack_age >= age) {
+            dropped.push_back(static_cast<std::int32_t>(r));
+            row_hashes_.erase(rows_[r].hash);
+            continue;
+        }
+        if (kept != r) rows_[kept] = std::move(rows_[r]);
+        ++kept;
+    }
+    rows_.resize(kept);
+    engine_->remove_rows(dropped);
+}
+
+Relaxation::SavedBasis Relaxation::save_basis() const {
+    SavedBasis saved;
+    saved.columns = engine_->basis();
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        const std::size_t at = objective_.size() + r;
+        if (at < saved.columns.size() && saved.columns[at] != LpEngine::BasisStatus::Basic) {
+            saved.nonbasic_rows.push_back(rows_[r].id);
+        }
+    }
+    saved.columns.resize(objective_.size());
+    return saved;
+}
+
+void Relaxation::restore_basis(const SavedBasis& saved) {
+    LpEngine::Basis basis = saved.columns;
+    auto next = saved.nonbasic_rows.begin();
+    for (const Row& row : rows_) {
+        while (next != saved.nonbasic_rows.end() && *next < row.id) ++next;
+        const bool is_nonbasic = next != saved.nonbasic_rows.end() && *next == row.id;
+        basis.push_back(is_nonbasic ? LpEngine::BasisStatus::AtUpper
+                                    : LpEngine::BasisStatus::Basic);
+    }
+    engine_->set_basis(basis);
+}
+
+}  // namespace labeling

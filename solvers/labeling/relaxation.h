@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "labeling/lp_engine.h"
+#include "labeling/problem.h"
+#include "labeling/run_control.h"
+
+namespace labeling {
+
+__extension__ using Int128 = __int128;
+
+/// A valid inequality  sum of terms <= right_hand_side  over the columns of the relaxation.
+struct Cut {
+    struct Entry {
+        std::int32_t column = 0;
+        std::int32_t coefficient = 0;
+        friend bool operator==(const Entry&, const Entry&) = default;
+    };
+    std::vector<Entry> entries;  ///< columns ascend
+    std::int64_t right_hand_side = 0;
+
+    double activity(std::span<const double> x) const {
+        double sum = 0;
+        for (const Entry& e : entries) sum += e.coefficient * x[e.column];
+        return sum;
+    }
+};
+
+/// Linear relaxation with exact rows and columns (labels, then bonuses) and a floating-point solver
+/// behind it. Every bound is recomputed in integers from the solver's multipliers, so it holds
+/// whatever the solver returned.
+class Relaxation {
+public:
+    Relaxation(const LabelingProblem& problem, const LpFactory& factory);
+
+    std::int32_t column_count() const { return static_cast<std::int32_t>(objective_.size()); }
+    std::int32_t row_count() const { return static_cast<std::int32_t>(rows_.size()); }
+
+    /// False when an equal row is there already.
+    bool add(Cut cut);
+    const Cut& row(std::int32_t r) const { return rows_[r].cut; }
+
+    void fix(std::int32_t column, bool value);
+    void unfix(std::int32_t column);
+    bool is_fixed(std::int32_t column) const { return lower_[column] == upper_[column]; }
+    bool at_one(std::int32_t column) const { return lower_[column] == 1; }
+    bool at_zero(std::int32_t column) const { return upper_[column] == 0; }
+
+    /// Solves and computes the exact bound; spends work on `control`. Stopped when control says so.
+    LpEngine::Outcome solve(RunControl& control, std::int64_t max_iterations);
+    std::span<const double> x() const { return engine_->columns(); }
+    LpEngine& engine() { return *engine_; }
+
+    /// Exact bound under the fixings at the time of solve(); a very large number when the solver
+    /// failed, kNoValue when infeasibility was proven.
+    Value bound() const { return bound_; }
+    double objective() const { return engine_->objective() * scale_; }
+    /// What forcing the (free) column away from the side it leans to does to the bound:
+    /// fixing to 1 (value) or 0 proves a bound of this or less.
+    Value bound_if(std::int32_t column, bool value) const;
+
+    /// Drops rows that were slack in the last `age` solves.
+    void drop_slack_rows(int age);
+    /// Basis with row identities, so that it can be restored after rows came and went.
+    struct SavedBasis {
+        LpEngine::Basis columns;
+        std::vector<std::uint32_t> nonbasic_rows;  ///< row ids, ascending
+    };
+    SavedBasis save_basis() const;
+    void restore_basis(const SavedBasis& saved);
+
+private:
+    struct Row {
+        Cut cut;
+        std::uint32_t id = 0;
+        int slack_age = 0;
+        std::uint64_t hash = 0;
+    };
+
+    void compute_bound();
+    bool prove_infeasible();
+    void age_rows();
+
+    static constexpr int kShift = 20;
+
+    std::unique_ptr<LpEngine> engine_;
+    std::vector<Value> objective_;
+    std::vector<std::int8_t> lower_, upper_;
+    std::vector<Row> rows_;
+    std::unordered_map<std::uint64_t, int> row_hashes_;
+    std::vector<Int128> reduced_;  ///< exact reduced costs, scaled by 2^kShift
+    Int128 scaled_bound_ = 0;
+    Value bound_ = 0;
+    double scale_ = 1;
+    std::uint32_t next_id_ = 0;
+};
+
+}  // namespace labeling

@@ -1,0 +1,109 @@
+// The conflict graph of literals, by probing (Savelsbergh 1994; Atamturk, Nemhauser & Savelsbergh
+// 2000 for conflict graphs of binary programs). Bonuses are nodes of their own, so that cliques of
+// this graph give the product-clique rows, the implication rows and the links y <= b at once.
+#include "labeling/term_graph.h"
+
+#include <algorithm>
+
+namespace labeling {
+namespace {
+
+constexpr std::int32_t kMatrixLimit = 24000;
+
+std::uint64_t edge(TermGraph::Node u, TermGraph::Node v) {
+    return (static_cast<std::uint64_t>(u) << 32) | static_cast<std::uint32_t>(v);
+}
+
+}  // namespace
+
+TermGraph::TermGraph(const LabelingProblem& problem, Propagator& propagator)
+    : label_count_(problem.label_count()),
+      bonus_count_(static_cast<std::int32_t>(problem.bonus_count())) {
+    bonus_begin_.assign(static_cast<std::size_t>(label_count_) + 1, 0);
+    for (const Bonus& b : problem.bonuses()) {
+        ++bonus_begin_[b.first + 1];
+        ++bonus_begin_[b.second + 1];
+    }
+    for (Label i = 0; i < label_count_; ++i) bonus_begin_[i + 1] += bonus_begin_[i];
+    bonuses_at_.resize(bonus_begin_.back());
+    std::vector<std::size_t> next(bonus_begin_.begin(), bonus_begin_.end() - 1);
+    for (std::int32_t k = 0; k < bonus_count_; ++k) {
+        bonuses_at_[next[problem.bonuses()[k].first]++] = k;
+        bonuses_at_[next[problem.bonuses()[k].second]++] = k;
+    }
+    std::vector<std::uint64_t> edges;
+    for (Node v = 0; v < node_count(); ++v) probe(problem, propagator, v, edges);
+    const std::size_t directed = edges.size();
+    for (std::size_t k = 0; k < directed; ++k) {
+        edges.push_back(
+            edge(static_cast<Node>(edges[k] & 0xffffffffU), static_cast<Node>(edges[k] >> 32)));
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    begin_.assign(static_cast<std::size_t>(node_count()) + 1, 0);
+    adjacency_.reserve(edges.size());
+    for (std::uint64_t e : edges) {
+        ++begin_[(e >> 32) + 1];
+        adjacency_.push_back(static_cast<Node>(e & 0xffffffffU));
+    }
+    for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+    work_ += 8 * static_cast<std::int64_t>(edges.size());
+    if (node_count() > kMatrixLimit) return;
+    words_per_row_ = (static_cast<std::size_t>(node_count()) + 63) / 64;
+    matrix_.assign(words_per_row_ * static_cast<std::size_t>(node_count()), 0);
+    for (std::uint64_t e : edges) {
+        const std::uint64_t v = e & 0xffffffffU;
+        matrix_[(e >> 32) * words_per_row_ + v / 64] |= std::uint64_t{1} << (v % 64);
+    }
+}
+
+void TermGraph::probe(const LabelingProblem& problem, Propagator& propagator, Node v,
+                      std::vector<std::uint64_t>& edges) {
+    Label first = 0, second = -1;
+    bool value = true;
+    if (v < label_count_) {
+        first = v;
+    } else if (is_off_node(v)) {
+        first = column(v);
+        value = false;
+    } else {
+        first = problem.bonuses()[v - label_count_].first;
+        second = problem.bonuses()[v - label_count_].second;
+    }
+    if (!propagator.is_free(first) || (second >= 0 && !propagator.is_free(second))) return;
+    const std::size_t size = propagator.trail().size();
+    const bool is_possible =
+        propagator.assign(first, value) && (second < 0 || propagator.assign(second, true));
+    if (!is_possible) {
+        impossible_.push_back(v);
+    } else {
+        const auto trail = propagator.trail();
+        for (std::size_t k = size; k < trail.size(); ++k) {
+            const Label i = trail[k];
+            if (propagator.value(i) == 1) {
+                if (v != label_node(i)) edges.push_back(edge(v, off_node(i)));
+                continue;
+            }
+            if (v != off_node(i)) edges.push_back(edge(v, label_node(i)));
+            for (std::size_t b = bonus_begin_[i]; b < bonus_begin_[i + 1]; ++b) {
+                edges.push_back(edge(v, bonus_node(bonuses_at_[b])));
+            }
+        }
+        work_ += static_cast<std::int64_t>(trail.size() - size) * 4;
+    }
+    propagator.undo(size);
+}
+
+bool TermGraph::adjacent(Node u, Node v) const {
+    if (!matrix_.empty()) {
+        return (matrix_[static_cast<std::size_t>(u) * words_per_row_ + v / 64] >> (v % 64)) & 1;
+    }
+    auto a = neighbours(u), b = neighbours(v);
+    if (a.size() > b.size()) {
+        std::swap(a, b);
+        std::swap(u, v);
+    }
+    return std::binary_search(a.begin(), a.end(), v);
+}
+
+}  // namespace labeling
