@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "network/drop_unused_nodes.h"
 #include "network/network.h"
 
 namespace fcn {
@@ -28,7 +29,7 @@ public:
         join_arcs();
         carry_segments();
         carry_curves();
-        drop_unused_nodes();
+        drop_unused_nodes(out_);
         return std::move(out_);
     }
 
@@ -235,25 +236,6 @@ private:
             out_.arcs[piece.arc].curve = static_cast<int>(out_.curves.size());
         }
         out_.curves.push_back(std::move(curve));
-    }
-
-    void drop_unused_nodes() {
-        std::vector<int> number(out_.nodes.size(), -1);
-        for (const NetworkArc& arc : out_.arcs)
-            for (int node : arc.nodes) number[node] = 0;
-        for (const NetworkSegment& segment : out_.segments)
-            for (int node : segment.nodes) number[node] = 0;
-        int count = 0;
-        for (std::size_t n = 0; n < number.size(); ++n) {
-            if (number[n] < 0) continue;
-            out_.nodes[count] = out_.nodes[n];
-            number[n] = count++;
-        }
-        out_.nodes.resize(count);
-        for (NetworkArc& arc : out_.arcs)
-            for (int& node : arc.nodes) node = number[node];
-        for (NetworkSegment& segment : out_.segments)
-            for (int& node : segment.nodes) node = number[node];
     }
 
     /// Where an old arc went.

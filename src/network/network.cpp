@@ -1,5 +1,7 @@
 #include "network/network.h"
 
+#include "network/drop_unused_nodes.h"
+
 namespace fcn {
 
 double NetworkArc::length() const {
@@ -21,6 +23,25 @@ std::vector<int> FeatureCurveNetwork::valences() const {
         for (int node : arc.nodes)
             if (node >= 0 && node < static_cast<int>(nodes.size())) ++valence[node];
     return valence;
+}
+
+void drop_unused_nodes(FeatureCurveNetwork& network) {
+    std::vector<int> number(network.nodes.size(), -1);
+    for (const NetworkArc& arc : network.arcs)
+        for (int node : arc.nodes) number[node] = 0;
+    for (const NetworkSegment& segment : network.segments)
+        for (int node : segment.nodes) number[node] = 0;
+    int count = 0;
+    for (std::size_t n = 0; n < number.size(); ++n) {
+        if (number[n] < 0) continue;
+        network.nodes[count] = network.nodes[n];
+        number[n] = count++;
+    }
+    network.nodes.resize(count);
+    for (NetworkArc& arc : network.arcs)
+        for (int& node : arc.nodes) node = number[node];
+    for (NetworkSegment& segment : network.segments)
+        for (int& node : segment.nodes) node = number[node];
 }
 
 }  // namespace fcn

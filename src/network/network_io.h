@@ -14,6 +14,11 @@ namespace fcn {
 /// With a mesh every sample is projected to its closest surface point. Throws InputError.
 FeatureCurveNetwork read_network(const std::filesystem::path& path, const Mesh* mesh = nullptr);
 
+/// The same from content in memory (decompressed); `name` decides the format as a path would.
+FeatureCurveNetwork network_from_content(const std::string& content,
+                                         const std::filesystem::path& name,
+                                         const Mesh* mesh = nullptr);
+
 enum class NetworkDetail { DenseArcs, Segments };
 
 /// Writes by name; JSON is lossless and always whole, every other format takes `detail`:

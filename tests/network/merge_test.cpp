@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 
 #include "network/network.h"
 #include "network/sample_networks.h"
@@ -10,21 +9,6 @@ namespace fcn {
 namespace {
 
 using namespace fcn::testing;
-
-using Coordinates = std::array<double, 3>;
-
-/// Every sample interval of the network, undirected, with its multiplicity.
-std::map<std::pair<Coordinates, Coordinates>, int> intervals(const FeatureCurveNetwork& network) {
-    std::map<std::pair<Coordinates, Coordinates>, int> count;
-    for (const NetworkArc& arc : network.arcs)
-        for (std::size_t s = 1; s < arc.samples.size(); ++s) {
-            const Vec3 &a = arc.samples[s - 1].position, &b = arc.samples[s].position;
-            Coordinates p{a[0], a[1], a[2]}, q{b[0], b[1], b[2]};
-            if (q < p) std::swap(p, q);
-            ++count[{p, q}];
-        }
-    return count;
-}
 
 TEST(MergeRegularNodes, StraightChainBecomesOneArc) {
     FeatureCurveNetwork network = NetworkBuilder()

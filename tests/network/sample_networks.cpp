@@ -177,4 +177,49 @@ FeatureCurveNetwork random_network(std::uint64_t seed, int node_count, int arc_c
     return network;
 }
 
+LoadedMesh cube_mesh(int count) {
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int side = 0; side < 2; ++side)
+            for (int i = 0; i < count; ++i)
+                for (int j = 0; j < count; ++j) {
+                    const int first = static_cast<int>(points.size());
+                    for (const auto& [u, v] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+                        Vec3 p;
+                        p[axis] = side;
+                        p[(axis + 1) % 3] = static_cast<double>(i + u) / count;
+                        p[(axis + 2) % 3] = static_cast<double>(j + v) / count;
+                        points.push_back(p);
+                    }
+                    for (int half = 1; half <= 2; ++half) {
+                        std::array<int, 3> triangle{first, first + half, first + half + 1};
+                        if (side == 0) std::swap(triangle[1], triangle[2]);  // outward normals
+                        triangles.push_back(triangle);
+                    }
+                }
+    return mesh_from_soup(points, triangles);
+}
+
+std::map<std::pair<Coordinates, Coordinates>, int> intervals(const FeatureCurveNetwork& network) {
+    std::map<std::pair<Coordinates, Coordinates>, int> count;
+    for (const NetworkArc& arc : network.arcs)
+        for (std::size_t s = 1; s < arc.samples.size(); ++s) {
+            const Vec3 &a = arc.samples[s - 1].position, &b = arc.samples[s].position;
+            Coordinates p{a[0], a[1], a[2]}, q{b[0], b[1], b[2]};
+            if (q < p) std::swap(p, q);
+            ++count[{p, q}];
+        }
+    return count;
+}
+
+std::vector<std::vector<Vec3>> polylines(const FeatureCurveNetwork& network) {
+    std::vector<std::vector<Vec3>> all;
+    for (const NetworkArc& arc : network.arcs) {
+        all.emplace_back();
+        for (const ArcSample& sample : arc.samples) all.back().push_back(sample.position);
+    }
+    return all;
+}
+
 }  // namespace fcn::testing

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <string>
+#include <map>
+#include <utility>
 #include <vector>
 
+#include "geometry/mesh_io.h"
 #include "network/network.h"
 
 namespace fcn::testing {
@@ -40,5 +43,16 @@ FeatureCurveNetwork adapted_cube();
 /// Random points on a lattice joined by random polylines: loops, parallel and closed arcs, random
 /// patches, kinds, pins and sources. Valid; the same for the same seed on every machine.
 FeatureCurveNetwork random_network(std::uint64_t seed, int node_count, int arc_count);
+
+/// The unit cube's surface, each side cut into count x count squares of two triangles; the edges of
+/// cube(count + 1) are edges of it.
+LoadedMesh cube_mesh(int count = 4);
+
+using Coordinates = std::array<double, 3>;
+/// Every sample interval of the network's arcs, undirected, with its multiplicity: its geometry.
+std::map<std::pair<Coordinates, Coordinates>, int> intervals(const FeatureCurveNetwork& network);
+
+/// The positions of each arc's samples.
+std::vector<std::vector<Vec3>> polylines(const FeatureCurveNetwork& network);
 
 }  // namespace fcn::testing
