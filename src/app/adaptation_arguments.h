@@ -1,12 +1,15 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "adaptation/adaptation.h"
 #include "app/common_arguments.h"
 #include "app/length.h"
 #include "labeling/solver.h"
+
+namespace CLI {
+class App;
+}
 
 namespace fcn::app {
 
@@ -50,7 +53,7 @@ struct AdaptationArguments {
     double lambda0 = 100;
     double lambda1 = -1;
     double alpha_sym = 2;
-    double alpha_loop = 100;
+    double alpha_loop = -1;
     double smooth_power = 2;
     double ortho_radius = 2;
     int max_iterations = 50;

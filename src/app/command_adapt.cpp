@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "app/adaptation_arguments.h"
@@ -54,14 +55,14 @@ int exit_code(const AdaptationResult& result) {
 }
 
 int adapt(const AdaptArguments& arguments) {
-    check_standard_output(arguments.output, arguments.common);
+    prepare_output(arguments.output, OutputKind::Network, arguments.common);
     const ScaleRequest scale = arguments.scale.request();
     AdaptationOptions options = arguments.adaptation.options(arguments.common);
     const LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
+    options.rmin = resolve_scale(scale, bounding_box(mesh.mesh).diagonal());
     const Detection detection =
         detect_network(mesh, arguments.detection, arguments.common.thread_count());
     for (const std::string& message : detection.messages) print_note(arguments.common, message);
-    options.rmin = resolve_scale(scale, bounding_box(mesh.mesh).diagonal());
     options.is_recording_problems = !arguments.problem_folder.empty();
 
     ProgressBar bar(!arguments.common.is_quiet);

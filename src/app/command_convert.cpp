@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
@@ -84,8 +85,12 @@ Json convert_network(const ConvertArguments& arguments) {
 }
 
 int convert(const ConvertArguments& arguments) {
-    check_standard_output(arguments.output, arguments.common);
     const std::string kind = kind_by_name(arguments);
+    prepare_output(arguments.output,
+                   kind == "mesh"      ? OutputKind::Mesh
+                   : kind == "network" ? OutputKind::Network
+                                       : OutputKind::Other,
+                   arguments.common);
     Json summary = kind == "problem" ? convert_problem(arguments)
                    : kind == "mesh"  ? convert_mesh(arguments)
                                      : convert_network(arguments);

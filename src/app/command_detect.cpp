@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "app/command.h"
@@ -20,7 +21,7 @@ struct DetectArguments {
 };
 
 int detect(const DetectArguments& arguments) {
-    check_standard_output(arguments.output, arguments.common);
+    prepare_output(arguments.output, OutputKind::Network, arguments.common);
     const LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
     const Detection detection =
         detect_network(mesh, arguments.detection, arguments.common.thread_count());

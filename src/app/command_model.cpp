@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "app/command.h"
@@ -35,7 +36,7 @@ int make(ModelArguments& arguments) {
         throw UsageError("model: NAME is missing (scalefcn model --list shows the names)");
     const std::string output =
         arguments.output.empty() ? arguments.name + ".off" : arguments.output;
-    check_standard_output(output, arguments.common);
+    prepare_output(output, OutputKind::Mesh, arguments.common);
     arguments.model.seed = arguments.common.seed;
     const LoadedMesh mesh = make_model(arguments.name, arguments.model);
     save_mesh(output, mesh);

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "app/adaptation_arguments.h"
@@ -27,7 +28,7 @@ struct RemeshArguments {
 int remesh(const RemeshArguments& arguments) {
     if (arguments.type == "quad")
         throw UsageError("--type quad is not available in this version; use --type tri");
-    check_standard_output(arguments.output, arguments.common);
+    prepare_output(arguments.output, OutputKind::Mesh, arguments.common);
     const ScaleRequest request = arguments.scale.request();
     const LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
     RemeshOptions options;

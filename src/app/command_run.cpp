@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -75,6 +76,7 @@ Run prepare(const RunArguments& arguments) {
     Run run;
     run.scales = scale_requests(arguments);
     run.folder = arguments.output;
+    std::filesystem::create_directories(run.folder);
     PipelineOptions& options = run.options;
     options.common = arguments.common;
     options.mesh = arguments.mesh;
@@ -123,7 +125,7 @@ void write_report_so_far(const Run& run, const RunArguments& arguments) {
 void run_mesh(const std::string& path, Run& run, const RunArguments& arguments) {
     ProgressBar bar(!arguments.common.is_quiet);
     bar.show(path + ": reading, detecting features", 0);
-    MeshRecord record = start_record(path, run.options);
+    MeshRecord record = start_record(path, run.scales, run.options);
     bar.clear();
     for (const std::string& message : record.messages)
         print_note(arguments.common, fmt::format("{}: {}", path, message));

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "app/adaptation_arguments.h"
@@ -78,7 +79,8 @@ labeling::SolveResult run_solver(const labeling::LabelingProblem& problem,
 }
 
 int solve(const SolveArguments& arguments) {
-    check_standard_output(arguments.output, arguments.common);
+    if (!arguments.output.empty())
+        prepare_output(arguments.output, OutputKind::Other, arguments.common);
     const labeling::LabelingProblem problem = load_problem(arguments.problem_path);
     const labeling::SolveResult result = run_solver(problem, arguments);
     if (result.solution && !arguments.output.empty())

@@ -1,10 +1,13 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
 
 #include "geometry/mesh_io.h"
+
+namespace CLI {
+class App;
+}
 
 namespace fcn::app {
 

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <numbers>
 #include <sstream>

@@ -1,6 +1,7 @@
 #include "app/inputs.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,8 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kMeshExtensions{".off", ".obj",  ".ply",
                                                           ".stl", ".mesh", ".msh"};
+constexpr std::array<std::string_view, 9> kNetworkExtensions{
+    ".fcn.json", ".obj", ".ply", ".vtp", ".mesh", ".msh", ".sharp", ".fl", ".polylines.txt"};
 constexpr std::array<std::string_view, 3> kProblemExtensions{".lab", ".mps", ".lp"};
 
 template <std::size_t size>
@@ -32,9 +35,8 @@ std::vector<std::string> meshes_in(const std::filesystem::path& folder) {
             meshes.push_back(entry.path().string());
     std::sort(meshes.begin(), meshes.end());
     if (meshes.empty())
-        throw InputError(fmt::format(
-            "{}: no mesh file in this directory (.off .obj .ply .stl .mesh .msh, or .gz of them)",
-            folder.string()));
+        throw InputError(fmt::format("{}: no mesh file in this directory ({}, or .gz of them)",
+                                     folder.string(), mesh_extensions()));
     return meshes;
 }
 
@@ -108,6 +110,17 @@ std::string plain_extension(const std::filesystem::path& path) {
 bool has_mesh_extension(const std::filesystem::path& path) {
     return is_one_of(plain_extension(path), kMeshExtensions);
 }
+
+bool has_network_extension(const std::filesystem::path& path) {
+    std::string name = path.filename().string();
+    if (name.ends_with(".gz")) name.resize(name.size() - 3);
+    return std::any_of(kNetworkExtensions.begin(), kNetworkExtensions.end(),
+                       [&](std::string_view extension) { return name.ends_with(extension); });
+}
+
+std::string mesh_extensions() { return fmt::format("{}", fmt::join(kMeshExtensions, " ")); }
+
+std::string network_extensions() { return fmt::format("{}", fmt::join(kNetworkExtensions, " ")); }
 
 bool has_problem_extension(const std::filesystem::path& path) {
     return is_one_of(plain_extension(path), kProblemExtensions);

@@ -35,7 +35,11 @@ bool is_lossless_network(const std::string& path);
 std::vector<std::string> expand_mesh_inputs(const std::vector<std::string>& inputs);
 
 bool has_mesh_extension(const std::filesystem::path& path);
+bool has_network_extension(const std::filesystem::path& path);
 bool has_problem_extension(const std::filesystem::path& path);
+/// For messages: ".off .obj ...".
+std::string mesh_extensions();
+std::string network_extensions();
 
 /// The extension without a final ".gz", lower case: ".off", ".json".
 std::string plain_extension(const std::filesystem::path& path);

@@ -96,6 +96,10 @@ Json adaptation_json(const AdaptationResult& result, const FeatureCurveNetwork& 
     json["iterations"] = Json::array();
     for (const IterationReport& iteration : report.iterations)
         json["iterations"].push_back(iteration_json(iteration, has_timings));
+    json["exempt_pairs"] = Json::array();
+    for (const ThinWallPair& pair : report.exempt)
+        json["exempt_pairs"].push_back(
+            {{"first", pair.first}, {"second", pair.second}, {"distance", pair.distance}});
     json["warnings"] = report.warnings;
     if (has_timings) json["seconds"] = report.seconds;
     return json;

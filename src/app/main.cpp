@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -60,6 +62,13 @@ int parse_and_run(int argc, char** argv) {
     } catch (const CLI::Success& request) {  // --help and --version
         return program.exit(request);
     } catch (const CLI::ParseError& error) {
+        const auto is_named = [&](const Command& command) {
+            return command.parser->get_name() == argv[1];
+        };
+        if (argc > 1 && argv[1][0] != '-' &&
+            std::none_of(commands.begin(), commands.end(), is_named))
+            return fail(kUsage,
+                        fmt::format("'{}' is not a command (see scalefcn --help)", argv[1]));
         return fail(kUsage, fmt::format("{} (see scalefcn --help)", error.what()));
     }
     for (const Command& command : commands)

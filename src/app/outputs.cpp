@@ -1,17 +1,20 @@
 #include "app/outputs.h"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 
 #include "app/command.h"
+#include "app/inputs.h"
 
 namespace fcn::app {
 namespace {
 
-void make_parent_folder(const std::filesystem::path& path) {
-    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
+bool has_format(const std::string& path, OutputKind kind) {
+    if (kind == OutputKind::Mesh) return has_mesh_extension(path);
+    return kind == OutputKind::Other || has_network_extension(path);
 }
 
 void print_all(const std::string& text) {
@@ -44,14 +47,23 @@ private:
 
 }  // namespace
 
-void check_standard_output(const std::string& path, const CommonArguments& common) {
-    if (path == "-" && common.is_json)
-        throw UsageError("-o - and --json both want standard output: name a file after -o");
+void prepare_output(const std::string& path, OutputKind kind, const CommonArguments& common) {
+    if (path == "-") {
+        if (common.is_json)
+            throw UsageError("-o - and --json both want standard output: name a file after -o");
+        return;
+    }
+    if (!has_format(path, kind))
+        throw UsageError(
+            fmt::format("{}: no {} format goes by this name (known: {})", path,
+                        kind == OutputKind::Mesh ? "mesh" : "network",
+                        kind == OutputKind::Mesh ? mesh_extensions() : network_extensions()));
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (!folder.empty()) std::filesystem::create_directories(folder);
 }
 
 void save_text(const std::string& path, const std::string& text) {
     if (path == "-") return print_all(text);
-    make_parent_folder(path);
     write_file_atomically(path, text);
 }
 
@@ -61,7 +73,6 @@ void save_mesh(const std::string& path, const LoadedMesh& mesh) {
         write_mesh(scratch.path() / "mesh.off", mesh);
         return print_all(read_file(scratch.path() / "mesh.off"));
     }
-    make_parent_folder(path);
     write_mesh(path, mesh);
 }
 
@@ -75,7 +86,6 @@ void save_network(const std::string& path, const FeatureCurveNetwork& network,
 void save_network(const std::string& path, const FeatureCurveNetwork& network, NetworkDetail detail,
                   const LoadedMesh* mesh) {
     if (path == "-") return print_all(network_to_json(network));
-    make_parent_folder(path);
     write_network(path, network, detail, mesh);
 }
 

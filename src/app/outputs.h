@@ -8,10 +8,12 @@
 
 namespace fcn::app {
 
-/// UsageError when standard output is asked to carry both a file and --json.
-void check_standard_output(const std::string& path, const CommonArguments& common);
+/// What can be known before the work begins: UsageError when standard output is to carry both the
+/// file and --json, or when no format goes by this name. Makes the folder it will lie in.
+enum class OutputKind { Mesh, Network, Other };
+void prepare_output(const std::string& path, OutputKind kind, const CommonArguments& common);
 
-/// Atomic; makes missing folders; "-" is standard output.
+/// Atomic; "-" is standard output.
 void save_text(const std::string& path, const std::string& text);
 /// By extension, "-" as OFF on standard output.
 void save_mesh(const std::string& path, const LoadedMesh& mesh);

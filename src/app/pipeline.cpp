@@ -93,9 +93,12 @@ std::vector<SolverComparison> compare_solvers(const labeling::LabelingProblem& p
     return rows;
 }
 
-MeshRecord start_record(const std::string& path, const PipelineOptions& options) {
+MeshRecord start_record(const std::string& path, const std::vector<ScaleRequest>& scales,
+                        const PipelineOptions& options) {
     MeshRecord record;
     record.mesh = read_mesh(path, options.mesh.read_options());
+    const double diagonal = bounding_box(record.mesh.mesh).diagonal();
+    for (const ScaleRequest& scale : scales) resolve_scale(scale, diagonal);
     record.messages = record.mesh.repairs.messages();
     Detection detection =
         detect_network(record.mesh, options.detection, options.common.thread_count());

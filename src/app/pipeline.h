@@ -36,8 +36,10 @@ std::vector<SolverComparison> compare_solvers(const labeling::LabelingProblem& p
                                               const std::string& problem_name,
                                               const PipelineOptions& options);
 
-/// Reads the mesh and finds its features; the record has no scales yet.
-MeshRecord start_record(const std::string& path, const PipelineOptions& options);
+/// Reads the mesh, makes sure that the scales fit it, and finds its features; the record has no
+/// scales yet.
+MeshRecord start_record(const std::string& path, const std::vector<ScaleRequest>& scales,
+                        const PipelineOptions& options);
 
 /// Adapts, checks, compares solvers and remeshes at one scale. After Ctrl-C the steps that are
 /// left are skipped: adaptation.report.status tells.

@@ -1,0 +1,142 @@
+"""From a mesh to a checked network, a triangle mesh and a report, as a user would go."""
+
+import json
+import re
+import unittest
+
+from scalefcn_process import VIOLATION, ProgramTest
+
+SCALE_FILES = {"initial.fcn.json", "adapted.fcn.json", "initial.obj", "network.obj", "remesh.obj"}
+
+
+class StepByStep(ProgramTest):
+    def test_detect_adapt_check_remesh_measure(self):
+        self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")
+        self.succeed("detect", "ribs.off", "--method", "sharp", "-o", "initial.fcn.json")
+        adapted = self.succeed_json("adapt", "ribs.off", "--network", "initial.fcn.json",
+                                    "--scale", "8%", "-o", "adapted.fcn.json", "--save-problems",
+                                    "problems")
+        self.assertTrue(adapted["conforming"])
+        self.assertEqual(adapted["status"], "converged")
+        self.assertAlmostEqual(adapted["rmax"], 1.5 * adapted["rmin"])
+        self.assertGreater(adapted["segments"], 0)
+        self.assertGreaterEqual(adapted["bound"], adapted["value"])
+        check = self.succeed_json("check", "adapted.fcn.json", "--scale", "8%", "--mesh",
+                                  "ribs.off")
+        self.assertEqual(check["violations"], 0)
+        remesh = self.succeed_json("remesh", "ribs.off", "--network", "adapted.fcn.json",
+                                   "--scale", "8%", "-o", "remesh.obj")
+        self.assertGreater(remesh["triangles"]["faces"], 0)
+        measure = self.succeed_json("measure", "remesh.obj", "ribs.off")
+        self.assertEqual(measure["triangles"]["faces"], remesh["triangles"]["faces"])
+        self.assertLess(measure["distance"]["hausdorff_over_diagonal"], 0.08)
+
+    def test_saved_problems_give_the_value_again(self):
+        self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")
+        adapted = self.succeed_json("adapt", "ribs.off", "--method", "sharp", "--scale", "8%",
+                                    "-o", "a.fcn.json", "--save-problems", "problems")
+        self.succeed("verify", "problems/problem_1.lab.gz", "problems/problem_1.sol")
+        solved = self.succeed_json("solve", "problems/problem_1.lab.gz", "--solver", "cbc")
+        self.assertAlmostEqual(solved["value"] / solved["units_per_one"], adapted["value"],
+                               delta=1e-6 * max(1, abs(adapted["value"])))
+
+    def test_check_finds_what_a_finer_network_violates(self):
+        self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")
+        self.succeed("adapt", "ribs.off", "--method", "sharp", "--scale", "4%", "-o",
+                     "fine.fcn.json")
+        report = self.succeed_json("check", "fine.fcn.json", "--scale", "12%", code=VIOLATION)
+        self.assertFalse(report["conforming"])
+        self.assertGreater(len(report["details"]), 0)
+
+    def test_edge_length_is_scale_times_a_factor(self):
+        self.model("box", "--resolution", "0.2")
+        by_edge = self.succeed_json("adapt", "box.off", "--method", "sharp", "--edge-length",
+                                    "0.24", "-o", "edge.fcn.json")
+        by_scale = self.succeed_json("adapt", "box.off", "--method", "sharp", "--scale", "0.2",
+                                     "-o", "scale.fcn.json")
+        self.assertAlmostEqual(by_edge["rmin"], by_scale["rmin"])
+        self.assertEqual(by_edge["segments"], by_scale["segments"])
+
+    def test_network_formats_keep_the_curves(self):
+        self.model("box", "--resolution", "0.25")
+        self.succeed("detect", "box.off", "--method", "sharp", "-o", "box.fcn.json")
+        for target in ("box.obj", "box.ply", "box.vtp", "box.mesh", "box.msh",
+                       "box.polylines.txt"):
+            with self.subTest(target=target):
+                self.succeed("convert", "box.fcn.json", target)
+                back = self.succeed_json("convert", target, "back.fcn.json", "--as", "network",
+                                         "--mesh", "box.off")
+                self.assertEqual(back["arcs"], 12)
+
+    def test_standard_streams(self):
+        mesh = self.succeed("model", "box", "--resolution", "0.3", "-o", "-").stdout
+        self.assertTrue(mesh.startswith("OFF"))
+        network = self.succeed("detect", "-", "--method", "sharp", "-o", "-", stdin=mesh).stdout
+        self.assertEqual(len(json.loads(network)["arcs"]), 12)
+
+
+class Run(ProgramTest):
+    def test_files_keys_and_report(self):
+        self.model("box", "--resolution", "0.1")
+        summary = self.succeed_json("run", "box.off", "--scales", "10%,0.3", "-o", "out")
+        mesh = summary["meshes"][0]
+        self.assertEqual(mesh["method"], "sharp")
+        self.assertEqual([s["scale"] for s in mesh["scales"]], ["10%", "0.3"])
+        for scale, folder in zip(mesh["scales"], ("10pct", "0.3")):
+            names = {p.name for p in (self.folder / "out/box" / folder).iterdir()}
+            self.assertLessEqual(SCALE_FILES | {"problem_1.lab.gz"}, names)
+            self.assertEqual({f"out/box/{folder}/{n}" for n in names}, set(scale["files"]))
+            self.assertTrue(scale["conforming"])
+            self.assertGreater(scale["remesh"]["min_angle_degrees"], 15)
+            self.assertEqual([s["solver"] for s in scale["solvers"]],
+                             ["greedy", "local-search", "branch-and-bound", "cbc", "auto"])
+        report = (self.folder / "out/report.html").read_text(encoding="utf-8")
+        self.assertIn("</html>", report)
+        self.assertNotRegex(report, r"(src|href)=\"https?://", "the report must work offline")
+        with open(self.folder / "out/summary.json", encoding="utf-8") as file:
+            self.assertEqual(json.load(file), summary)
+
+    def test_exact_solvers_side_by_side_agree(self):
+        self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")
+        summary = self.succeed_json("run", "ribs.off", "--scales", "6%", "--no-remesh", "-o",
+                                    "out")
+        rows = summary["meshes"][0]["scales"][0]["solvers"]
+        optimal = {r["value"] for r in rows if r["status"] == "optimal"}
+        self.assertEqual(len(optimal), 1, rows)
+        for row in rows:
+            self.assertLessEqual(row["value"], optimal.copy().pop() * (1 + 1e-12))
+
+    def test_closing_table_leads_with_the_mesh(self):
+        self.model("box", "--resolution", "0.1")
+        text = self.succeed("run", "box.off", "--scales", "10%", "-o", "out").stdout
+        head = re.search(r"scale +edge length +network +triangles +smallest angle", text)
+        self.assertIsNotNone(head, text)
+        self.assertLess(head.start(), text.index("greedy"))
+        self.assertRegex(text, r"(?m)^ +10% +\S+ +initial ")
+        self.assertRegex(text, r"(?m)^ +adapted .* yes$")
+        self.assertTrue(text.rstrip().endswith("out/report.html"), text)
+
+    def test_folder_and_equal_names(self):
+        for folder in ("a", "b"):
+            (self.folder / "in" / folder).mkdir(parents=True)
+            self.succeed("model", "box", "--resolution", "0.3", "-o", f"in/{folder}/box.off")
+        self.succeed("run", "in/a", "in/b", "--scales", "20%", "--no-remesh", "--solvers", "none",
+                     "-o", "out")
+        self.assertTrue((self.folder / "out/box/20pct/adapted.fcn.json").exists())
+        self.assertTrue((self.folder / "out/box-2/20pct/adapted.fcn.json").exists())
+
+    def test_paper_mode_curve_unit_and_quad_target(self):
+        self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")
+        for options in (["--mode", "paper"], ["--unit", "curve"], ["--target", "quad"],
+                        ["--thin-walls", "conflict"], ["--method", "vsa", "--patches", "20"]):
+            with self.subTest(options=options):
+                summary = self.succeed_json("run", "ribs.off", "--scales", "6%", "--no-remesh",
+                                            "--solvers", "none", "-o", "out", *options)
+                scale = summary["meshes"][0]["scales"][0]
+                self.assertIn(scale["status"], ("converged", "iteration limit"))
+                if options != ["--mode", "paper"]:
+                    self.assertTrue(scale["conforming"], scale)
+
+
+if __name__ == "__main__":
+    unittest.main()
