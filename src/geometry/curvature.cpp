@@ -420,7 +420,9 @@ PrincipalCurvatures principal_curvatures(const Mesh& mesh, const CurvatureOption
     result.direction_max.resize(count, Vec3::Zero());
     result.direction_min.resize(count, Vec3::Zero());
     if (mesh.n_faces() == 0) return result;
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    // More threads than there are would make TBB print a warning.
+    const int available = tbb::this_task_arena::max_concurrency();
+    tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, available) : available);
     arena.execute([&] { compute(mesh, options.radius, result); });
     return result;
 }

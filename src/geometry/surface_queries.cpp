@@ -13,6 +13,7 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -284,17 +285,20 @@ SurfaceQueries& SurfaceQueries::operator=(SurfaceQueries&&) noexcept = default;
 const Mesh& SurfaceQueries::mesh() const { return *tree_->mesh; }
 
 ClosestPoint SurfaceQueries::closest(const Vec3& point) const {
+    if (!point.allFinite()) throw InputError("closest point: the query is not finite");
     ClosestTraversal traversal(tree_->triangles);
     tree_->boxes.traversal_with_priority(point, traversal);
     ClosestPoint result;
     result.surface = traversal.best();
-    if (result.surface.face < 0) throw InputError("closest point: the query is not finite");
     result.position = fcn::position(*tree_->mesh, result.surface);
     result.distance = (result.position - point).norm();
     return result;
 }
 
 std::vector<RayHit> SurfaceQueries::intersect_segment(const Vec3& from, const Vec3& to) const {
+    if (!from.allFinite() || !to.allFinite()) {
+        throw InputError("segment query: an end is not finite");
+    }
     SegmentTraversal traversal(tree_->triangles, false, 0);
     tree_->boxes.traversal_with_priority(Segment(from, to), traversal);
     return std::move(traversal).sorted_hits();
@@ -303,7 +307,9 @@ std::vector<RayHit> SurfaceQueries::intersect_segment(const Vec3& from, const Ve
 std::optional<RayHit> SurfaceQueries::first_hit(const Vec3& origin, const Vec3& direction,
                                                 double min_distance) const {
     const double length = direction.norm();
-    if (!(length > 0)) throw InputError("first hit: the direction has no length");
+    if (!(length > 0) || !std::isfinite(length) || !origin.allFinite()) {
+        throw InputError("first hit: the direction has no length or the ray is not finite");
+    }
     const CGAL::Bbox_3 box = tree_->boxes.bbox();
     const Vec3 low(box.xmin(), box.ymin(), box.zmin());
     const Vec3 high(box.xmax(), box.ymax(), box.zmax());
@@ -311,6 +317,7 @@ std::optional<RayHit> SurfaceQueries::first_hit(const Vec3& origin, const Vec3& 
     const double reach = 2 * ((high - low).norm() + (0.5 * (low + high) - origin).norm());
     const Vec3 end = origin + direction * (reach / length);
     const double run = (end - origin).norm();
+    if (!std::isfinite(run)) throw InputError("first hit: the ray starts too far away");
     if (min_distance >= run) return std::nullopt;
     // A hit at the origin itself counts only for a negative least distance.
     SegmentTraversal traversal(tree_->triangles, true, min_distance / run);
