@@ -29,17 +29,20 @@ FeatureCurveNetwork detect_sharp(const LoadedMesh& mesh, const SharpOptions& opt
 
 struct VsaOptions {
     int patch_count = 100;
-    int max_iterations = 40;        ///< of Lloyd clustering
-    std::vector<int> seed_faces;    ///< optional; fixes the first seeds
-    bool is_straightening = true;   ///< straighten the patch borders
-    double min_patch_area = 0;      ///< relative to the mean patch; smaller ones dissolve
+    int max_iterations = 40;       ///< of Lloyd clustering
+    std::vector<int> seed_faces;   ///< optional; fixes the first seeds
+    bool is_straightening = true;  ///< straighten the patch borders
+    double min_patch_area = 0;     ///< relative to the mean patch; smaller ones dissolve
+    /// Radians (40 degrees): creases above it that no patch border takes become arcs of their own
+    /// (both their patches are the same); 0 = none.
+    double crease_angle = 0.6981317007977318;
     int threads = 1;
 };
 
 struct VsaResult {
     std::vector<int> patch_of_face;
     std::vector<Vec3> proxy_normals;
-    double error = 0;     ///< sum of area * |n_f - N_patch|^2
+    double error = 0;  ///< sum of area * |n_f - N_patch|^2
     int iterations = 0;
 };
 
@@ -57,7 +60,6 @@ enum class BoundaryPolicy { Keep, Adapt, Ignore };
 /// border are replaced by it; features that meet it get a node there. Corners of more than
 /// corner_angle (radians) of a boundary become nodes.
 FeatureCurveNetwork add_boundaries(const FeatureCurveNetwork& network, const LoadedMesh& mesh,
-                                   BoundaryPolicy policy,
-                                   double corner_angle = 0.7853981633974483);
+                                   BoundaryPolicy policy, double corner_angle = 0.7853981633974483);
 
 }  // namespace fcn
