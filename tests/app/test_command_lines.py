@@ -185,7 +185,7 @@ class BadInputs(ProgramTest):
         self.model("gear")
         self.succeed("detect", "box.off", "-o", "box.fcn.json")
         self.refuse("unused", None, ["adapt", "gear.off", "--network", "box.fcn.json", "--scale",
-                                     "2%", "-o", "a.fcn.json"], "another mesh")
+                                     "2%", "-o", "a.fcn.json"], "mesh")
 
     def test_initial_network_has_nothing_to_check(self):
         self.model("box", "--resolution", "0.3")

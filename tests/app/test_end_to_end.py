@@ -1,12 +1,29 @@
 """From a mesh to a checked network, a triangle mesh and a report, as a user would go."""
 
 import json
+import pathlib
 import re
 import unittest
 
 from scalefcn_process import VIOLATION, ProgramTest
 
 SCALE_FILES = {"initial.fcn.json", "adapted.fcn.json", "initial.obj", "network.obj", "remesh.obj"}
+
+
+DOCUMENTATION = pathlib.Path(__file__).parents[2] / "docs" / "command-line.md"
+
+
+def keys_of(value):
+    """Every key of a JSON value at any depth; phases and statistics are free-form."""
+    if isinstance(value, list):
+        return set().union(*map(keys_of, value))
+    if not isinstance(value, dict):
+        return set()
+    found = set(value)
+    for key, inner in value.items():
+        if key not in ("seconds", "statistics"):
+            found |= keys_of(inner)
+    return found
 
 
 class StepByStep(ProgramTest):
@@ -78,7 +95,8 @@ class StepByStep(ProgramTest):
 class Run(ProgramTest):
     def test_files_keys_and_report(self):
         self.model("box", "--resolution", "0.1")
-        summary = self.succeed_json("run", "box.off", "--scales", "10%,0.3", "-o", "out")
+        summary = self.succeed_json("run", "box.off", "--scales", "10%,0.3", "--compare-work",
+                                    "300000", "-o", "out")
         mesh = summary["meshes"][0]
         self.assertEqual(mesh["method"], "sharp")
         self.assertEqual([s["scale"] for s in mesh["scales"]], ["10%", "0.3"])
@@ -96,10 +114,28 @@ class Run(ProgramTest):
         with open(self.folder / "out/summary.json", encoding="utf-8") as file:
             self.assertEqual(json.load(file), summary)
 
+    def test_every_key_is_documented(self):
+        self.model("box", "--resolution", "0.2")
+        found = keys_of(self.succeed_json("run", "box.off", "--scales", "20%", "--compare-work",
+                                          "300000", "-o", "out"))
+        network = "out/box/20pct/adapted.fcn.json"
+        problem = "out/box/20pct/problem_1.lab.gz"
+        for arguments in (["check", network, "--scale", "20%"],
+                          ["measure", "out/box/20pct/remesh.obj", "box.off"],
+                          ["solve", problem, "-o", "a.sol"], ["verify", problem, "a.sol"],
+                          ["convert", network, "a.obj"], ["model", "--list"],
+                          ["detect", "box.off", "-o", "net.fcn.json"],
+                          ["remesh", "box.off", "--scale", "20%", "-o", "remesh.obj"]):
+            found |= keys_of(self.succeed_json(*arguments))
+        text = DOCUMENTATION.read_text(encoding="utf-8")
+        documented = set(re.findall(r"`\.?([a-z_0-9]+)(?:\[\])?`", text))
+        self.assertGreater(len(found), 100)
+        self.assertEqual(found - documented, set())
+
     def test_exact_solvers_side_by_side_agree(self):
         self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")
-        summary = self.succeed_json("run", "ribs.off", "--scales", "6%", "--no-remesh", "-o",
-                                    "out")
+        summary = self.succeed_json("run", "ribs.off", "--scales", "6%", "--no-remesh",
+                                    "--compare-work", "1000000", "-o", "out")
         rows = summary["meshes"][0]["scales"][0]["solvers"]
         optimal = {r["value"] for r in rows if r["status"] == "optimal"}
         self.assertEqual(len(optimal), 1, rows)
@@ -108,7 +144,8 @@ class Run(ProgramTest):
 
     def test_closing_table_leads_with_the_mesh(self):
         self.model("box", "--resolution", "0.1")
-        text = self.succeed("run", "box.off", "--scales", "10%", "-o", "out").stdout
+        text = self.succeed("run", "box.off", "--scales", "10%", "--compare-work", "300000",
+                            "-o", "out").stdout
         head = re.search(r"scale +edge length +network +triangles +smallest angle", text)
         self.assertIsNotNone(head, text)
         self.assertLess(head.start(), text.index("greedy"))
