@@ -169,10 +169,11 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
         // A pipe or device cannot be replaced by a rename.
         temporary.descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
     } else {
-        temporary.path = (target.parent_path() /
-                          ("." + target.filename().string() + "." + std::to_string(::getpid()) +
-                           "." + std::to_string(serial++) + ".part"))
-                             .string();
+        std::string hidden(1, '.');
+        hidden.append(target.filename().string()).append(1, '.');
+        hidden.append(std::to_string(::getpid())).append(1, '.');
+        hidden.append(std::to_string(serial++)).append(".part");
+        temporary.path = (target.parent_path() / hidden).string();
         temporary.descriptor =
             ::open(temporary.path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     }
