@@ -38,8 +38,9 @@ struct ConformityReport {
     std::size_t input_forced = 0;
     std::size_t exempt = 0;
     std::size_t long_segments = 0;  ///< allowed ones
-    /// Largest surface / Euclidean distance ratio between close kept curves (Definition 1(2));
-    /// 0 when not measured (no mesh) or no close pair.
+    /// Largest surface / Euclidean distance ratio between close kept curves (Definition 1(2)):
+    /// segments of different arcs without a common node, closer than rmax, no thin wall. Cut off
+    /// at 4; 0 when not measured (no mesh) or no close pair.
     double max_distance_ratio = 0;
     std::size_t distance_ratio_pairs = 0;  ///< pairs measured
     std::size_t distance_ratio_over_two = 0;
@@ -47,7 +48,11 @@ struct ConformityReport {
 };
 
 /// The independent checker: shares no code with the adaptation (own distances, own angle bounds,
-/// own neighbour search). Needs segments; throws InputError without.
+/// own neighbour search, own surface distances, which are exact). Looks at positions, lengths and
+/// Pin::Keep only, never at flags such as is_long. Thin wall: the witnesses' closest surface points
+/// have normals of dot <= -0.5 (on an edge or vertex the mean of its faces) and a surface distance
+/// >= 3 rmin. Deterministic; near-linear in segments plus faces. Throws InputError on options out
+/// of range, indices out of range, or arcs without segments.
 ConformityReport check_conformity(const FeatureCurveNetwork& network,
                                   const ConformityOptions& options, const Mesh* mesh = nullptr);
 

@@ -198,18 +198,16 @@ Resampling best_chain(std::span<const Vec3> points, const ScaleInterval& scale, 
     return result;
 }
 
-/// Starts over the first rmax of the closed arc (where every chain has a node) and a few beyond.
+/// Starts over the first rmax of a short closed arc, where every chain has a node.
 std::vector<int> start_candidates(std::span<const Vec3> samples, const ScaleInterval& scale,
-                                  const ResamplingOptions& options) {
+                                  int wanted) {
     const int distinct = static_cast<int>(samples.size()) - 1;
-    if (options.is_start_fixed) return {0};
     double length = 0;
     int end = 0;
     while (end < distinct - 1 && length < scale.rmax) {
         length += (samples[end + 1] - samples[end]).norm();
         ++end;
     }
-    const int wanted = distinct > 3000 ? std::min(4, options.start_count) : options.start_count;
     std::vector<int> starts;
     for (int k = 0; k < wanted; ++k) {
         starts.push_back(static_cast<int>(static_cast<std::int64_t>(end) * k / wanted));
@@ -218,25 +216,43 @@ std::vector<int> start_candidates(std::span<const Vec3> samples, const ScaleInte
     return starts;
 }
 
-Resampling resample_closed(std::span<const Vec3> samples, const ScaleInterval& scale,
-                           const ResamplingOptions& options) {
+/// Best chain once around a closed arc from one start; chain indices count from sample 0.
+Resampling resample_from(std::span<const Vec3> samples, const ScaleInterval& scale, int start,
+                         double evenness) {
     constexpr int kSegmentsOfClosedArc = 3;
     const int distinct = static_cast<int>(samples.size()) - 1;
-    Resampling best;
-    best.is_unrepresentable = true;
-    for (int start : start_candidates(samples, scale, options)) {
-        std::vector<Vec3> rotated;
-        rotated.reserve(samples.size());
-        for (int k = 0; k <= distinct; ++k) rotated.push_back(samples[(start + k) % distinct]);
-        Resampling candidate = best_chain(rotated, scale, kSegmentsOfClosedArc, options.evenness);
-        if (candidate.chain.empty()) continue;
-        const bool is_better =
-            best.is_unrepresentable || (candidate.long_segment < 0 && best.long_segment >= 0) ||
-            ((candidate.long_segment < 0) == (best.long_segment < 0) && candidate.cost < best.cost);
-        if (!is_better) continue;
-        best = std::move(candidate);
-        best.start = start;
-        for (int& sample : best.chain) sample += start;
+    std::vector<Vec3> rotated;
+    rotated.reserve(samples.size());
+    for (int k = 0; k <= distinct; ++k) rotated.push_back(samples[(start + k) % distinct]);
+    Resampling result = best_chain(rotated, scale, kSegmentsOfClosedArc, evenness);
+    result.is_unrepresentable = result.chain.empty();
+    result.start = start;
+    for (int& sample : result.chain) sample += start;
+    return result;
+}
+
+bool is_better(const Resampling& a, const Resampling& b) {
+    if (a.is_unrepresentable || b.is_unrepresentable) return !a.is_unrepresentable;
+    if ((a.long_segment < 0) != (b.long_segment < 0)) return a.long_segment < 0;
+    return a.cost < b.cost;
+}
+
+Resampling resample_closed(std::span<const Vec3> samples, const ScaleInterval& scale,
+                           const ResamplingOptions& options) {
+    const int distinct = static_cast<int>(samples.size()) - 1;
+    Resampling best = resample_from(samples, scale, 0, options.evenness);
+    if (options.is_start_fixed) return best;
+    if (distinct > kFullWindowSamples * 2 && !best.is_unrepresentable) {
+        // Far from its start a best chain has forgotten it: the node half way around is a start
+        // that an unconstrained chain would have, so a second run from there is enough.
+        const int middle = best.chain[best.chain.size() / 2] % distinct;
+        Resampling second = resample_from(samples, scale, middle, options.evenness);
+        return is_better(second, best) ? second : best;
+    }
+    for (int start : start_candidates(samples, scale, options.start_count)) {
+        if (start == 0) continue;
+        Resampling candidate = resample_from(samples, scale, start, options.evenness);
+        if (is_better(candidate, best)) best = std::move(candidate);
     }
     return best;
 }

@@ -25,7 +25,7 @@ struct Resampling {
 struct ResamplingOptions {
     /// Closed arc through an extraordinary node: the start stays at sample 0.
     bool is_start_fixed = false;
-    /// Starts tried on a free closed arc, spread over the first rmax of it and over the whole.
+    /// Starts tried on a short free closed arc, spread over its first rmax; a long one takes two.
     int start_count = 12;
     /// Weight of ((length - sqrt(rmin rmax)) / rmin)^2 per segment, which decides ties.
     double evenness = 1e-6;

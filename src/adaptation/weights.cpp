@@ -83,10 +83,13 @@ void add_orthogonality(const SegmentGraph& graph, const std::vector<SegmentAttri
 }  // namespace
 
 double crease_contrast(double dihedral) {
+    // The step at 40 degrees is what lets a crease above it win against several just below it.
     constexpr double kDegree = std::numbers::pi / 180;
-    constexpr double kLow = 20 * kDegree, kHigh = 40 * kDegree, kContrast = 30;
-    const double t = std::clamp((std::abs(dihedral) - kLow) / (kHigh - kLow), 0.0, 1.0);
-    return std::pow(kContrast, t);
+    constexpr double kLow = 20 * kDegree, kCrease = 40 * kDegree;
+    constexpr double kBelow = 3, kAbove = 30;
+    const double angle = std::abs(dihedral);
+    if (angle >= kCrease * (1 - 1e-9)) return kAbove;
+    return std::pow(kBelow, std::clamp((angle - kLow) / (kCrease - kLow), 0.0, 1.0));
 }
 
 double segment_weight(const SegmentAttributes& attributes, const ScaleInterval& scale,

@@ -19,7 +19,7 @@ struct SegmentAttributes {
     double length = 0;  ///< of the segment, mesh units
 };
 
-/// 1 below 20 degrees, 30 above 40 degrees of dihedral angle (radians in), geometric between.
+/// 30 from 40 degrees of dihedral angle (radians in) on; below, from 1 (20 degrees) up to 3.
 double crease_contrast(double dihedral);
 
 /// w(e) = I L Sym Loop; best mode: I contrast sqrt(L / rmin) Sym Loop length / rmin.
