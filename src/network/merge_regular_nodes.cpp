@@ -1,7 +1,8 @@
 // Joins arcs through nodes of exactly two arc ends. The joinable pairs of arc ends form chains and
 // cycles of arcs; each is traced from its arc of lowest index, in that arc's direction, and becomes
-// one arc. A cycle keeps the lowest arc's first node; a cycle whose joined polyline would have
-// fewer than the three distinct samples of a closed arc is left as it is. Curves are carried as
+// one arc. A cycle keeps the lowest arc's first node. Left as they are: chains whose joined
+// polyline would be closed with fewer than the three distinct samples of a closed arc, and a node
+// where a second long segment would come into one arc. Curves are carried as
 // links between consecutive arc ends: links inside a joined arc vanish, the others move to its
 // ends, and joined arcs tie their curves together.
 
@@ -55,6 +56,9 @@ private:
         std::vector<bool> is_in_orbit(in_.arcs.size(), false);
         for (const SymmetryOrbit& orbit : in_.orbits)
             for (const OrbitMember& member : orbit.members) is_in_orbit[member.arc] = true;
+        has_long_segment_.assign(in_.arcs.size(), false);
+        for (const NetworkSegment& segment : in_.segments)
+            if (segment.is_long) has_long_segment_[segment.arc] = true;
         std::vector<std::array<int, 2>> ends(in_.nodes.size(), {-1, -1});
         const std::vector<int> valence = in_.valences();
         for (int end = 0; end < end_count; ++end) {
@@ -69,7 +73,7 @@ private:
         }
     }
 
-    std::size_t closed_sample_count(const std::vector<Piece>& chain) const {
+    std::size_t sample_count(const std::vector<Piece>& chain) const {
         std::size_t count = 1;
         for (const Piece& piece : chain) count += in_.arcs[piece.arc].samples.size() - 1;
         return count;
@@ -93,17 +97,36 @@ private:
             chain.push_back({a, false});
             for (int end = join_[2 * a + 1]; end >= 0 && end / 2 != a; end = join_[end ^ 1])
                 chain.push_back({end / 2, end % 2 == 1});
-            if (is_cycle && closed_sample_count(chain) < 4) {
-                for (const Piece& piece : chain) {
-                    is_done[piece.arc] = true;
-                    chains_.push_back({{piece.arc, false}});
-                }
-                continue;
-            }
             for (const Piece& piece : chain) is_done[piece.arc] = true;
-            chains_.push_back(std::move(chain));
+            add_chain(chain);
         }
     }
+
+    /// Cuts a chain where a second long segment would enter it, and leaves one alone that would
+    /// become a closed arc of too few samples.
+    void add_chain(const std::vector<Piece>& chain) {
+        std::vector<std::vector<Piece>> parts(1);
+        bool has_long = false;
+        for (const Piece& piece : chain) {
+            if (has_long && has_long_segment_[piece.arc]) {
+                parts.emplace_back();
+                has_long = false;
+            }
+            has_long = has_long || has_long_segment_[piece.arc];
+            parts.back().push_back(piece);
+        }
+        for (std::vector<Piece>& part : parts) {
+            if (part.size() > 1 && start_node(part.front()) == end_node(part.back()) &&
+                sample_count(part) < 4) {
+                for (const Piece& piece : part) chains_.push_back({{piece.arc, false}});
+            } else {
+                chains_.push_back(std::move(part));
+            }
+        }
+    }
+
+    int start_node(const Piece& p) const { return in_.arcs[p.arc].nodes[p.is_reversed ? 1 : 0]; }
+    int end_node(const Piece& p) const { return in_.arcs[p.arc].nodes[p.is_reversed ? 0 : 1]; }
 
     void append(NetworkArc& arc, const Piece& piece, bool has_origins) const {
         const NetworkArc& part = in_.arcs[piece.arc];
@@ -129,8 +152,7 @@ private:
             const Piece &first = chain.front(), &last = chain.back();
             NetworkArc arc = in_.arcs[first.arc];
             arc.patches = patches_along(first.arc, first.is_reversed);
-            arc.nodes = {in_.arcs[first.arc].nodes[first.is_reversed ? 1 : 0],
-                         in_.arcs[last.arc].nodes[last.is_reversed ? 0 : 1]};
+            arc.nodes = {start_node(first), end_node(last)};
             arc.samples.clear();
             arc.origins.clear();
             const bool has_origins = std::any_of(chain.begin(), chain.end(), [&](const Piece& p) {
@@ -247,6 +269,7 @@ private:
 
     const FeatureCurveNetwork& in_;
     FeatureCurveNetwork out_;
+    std::vector<bool> has_long_segment_;
     std::vector<int> join_;  ///< per arc end the end it is joined to, -1 none
     std::vector<std::vector<Piece>> chains_;
     std::vector<Place> place_;

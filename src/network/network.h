@@ -121,7 +121,9 @@ std::vector<std::string> validate(const FeatureCurveNetwork& network);
 std::vector<std::string> validate(const FeatureCurveNetwork& network, const Mesh& mesh);
 
 /// Merges arcs through every node of exactly two arc ends unless their kind, pin or source
-/// differ, patches are lost, or one is part of an orbit; drops unused nodes. Deterministic.
+/// differ, patches are lost, one is part of an orbit, or the result would be no valid arc (closed
+/// with fewer than 4 samples, two long segments); drops unused nodes. Deterministic. Expects a
+/// network that passes validate().
 FeatureCurveNetwork merge_regular_nodes(const FeatureCurveNetwork& network);
 
 struct CurveOptions {

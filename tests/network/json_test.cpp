@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
 #include "network/network_io.h"
@@ -90,6 +94,55 @@ TEST(FcnJson, EveryFieldSurvives) {
     const FeatureCurveNetwork back = network_from_json(text, "cube");
     expect_same(network, back);
     EXPECT_EQ(network_to_json(back), text);
+}
+
+/// Follows document and schema together: objects have exactly the schema's keys, names are among
+/// its enums, and types are as it says.
+void expect_described(const nlohmann::json& value, nlohmann::json schema,
+                      const nlohmann::json& root, const std::string& where) {
+    SCOPED_TRACE(where);
+    if (schema.contains("$ref")) {
+        const nlohmann::json::json_pointer target(schema["$ref"].get<std::string>().substr(1));
+        schema.merge_patch(root.at(target));
+    }
+    if (schema.contains("oneOf")) {
+        for (const nlohmann::json& option : schema["oneOf"]) {
+            nlohmann::json resolved = option;
+            if (option.contains("$ref"))
+                resolved = root.at(
+                    nlohmann::json::json_pointer(option["$ref"].get<std::string>().substr(1)));
+            if (resolved["minItems"] == value.size())
+                return expect_described(value, resolved, root, where);
+        }
+        FAIL() << "no option of " << value.size() << " elements";
+    }
+    if (schema.contains("const")) {
+        EXPECT_EQ(value, schema["const"]);
+    }
+    if (schema.contains("enum")) {
+        EXPECT_EQ(std::count(schema["enum"].begin(), schema["enum"].end(), value), 1) << value;
+    }
+    if (!schema.contains("type")) return;
+    const std::string type = schema["type"];
+    EXPECT_TRUE(type == value.type_name() || (type == "integer" && value.is_number_integer()))
+        << value.type_name() << ", not " << type;
+    if (type == "object") {
+        for (const auto& [key, item] : schema["properties"].items())
+            EXPECT_TRUE(value.contains(key)) << key << " is described but not written";
+        for (const auto& [key, item] : value.items()) {
+            ASSERT_TRUE(schema["properties"].contains(key)) << key << " is not described";
+            expect_described(item, schema["properties"][key], root, where + "/" + key);
+        }
+    } else if (type == "array" && schema.contains("items")) {
+        for (std::size_t k = 0; k < value.size(); ++k)
+            expect_described(value[k], schema["items"], root, where + "/" + std::to_string(k));
+    }
+}
+
+TEST(FcnJson, SchemaDescribesWhatIsWritten) {
+    const nlohmann::json schema = nlohmann::json::parse(
+        std::ifstream(std::string(SCALEFCN_SOURCE_DIR) + "/docs/fcn.schema.json"));
+    expect_described(nlohmann::json::parse(network_to_json(adapted_cube())), schema, schema, "");
 }
 
 TEST(FcnJson, EmptyNetworkSurvives) {

@@ -86,6 +86,31 @@ TEST(MergeRegularNodes, TwoStraightArcsBetweenTheSameNodesStay) {
     EXPECT_EQ(merged.arcs.size(), 2u);
 }
 
+TEST(MergeRegularNodes, TwoStraightArcsBackToAJunctionStay) {
+    const FeatureCurveNetwork network = NetworkBuilder()
+                                            .arc({{0, 0, 0}, {1, 0, 0}})
+                                            .arc({{1, 0, 0}, {0, 0, 0}})
+                                            .arc({{0, 0, 0}, {0, 1, 0}})
+                                            .build();
+    const FeatureCurveNetwork merged = merge_regular_nodes(network);
+    EXPECT_TRUE(validate(merged).empty());
+    EXPECT_EQ(merged.arcs.size(), 3u);
+}
+
+TEST(MergeRegularNodes, OneLongSegmentAnArc) {
+    FeatureCurveNetwork network = NetworkBuilder()
+                                      .arc({{0, 0, 0}, {1, 0, 0}})
+                                      .arc({{1, 0, 0}, {2, 0, 0}})
+                                      .arc({{2, 0, 0}, {3, 0, 0}})
+                                      .build();
+    for (int a = 0; a < 3; ++a) network.segments.push_back({{a, a + 1}, a, 0, 1, 1.0, a != 1});
+    ASSERT_TRUE(validate(network).empty());
+    const FeatureCurveNetwork merged = merge_regular_nodes(network);
+    EXPECT_TRUE(validate(merged).empty());
+    ASSERT_EQ(merged.arcs.size(), 2u);
+    EXPECT_EQ(merged.arcs[0].samples.size(), 3u);
+}
+
 TEST(MergeRegularNodes, JunctionsAndClosedArcsStay) {
     for (const FeatureCurveNetwork& network :
          {y_junction(), t_junction(), cube(), circle(), figure_eight(), two_loops(), lasso()}) {
