@@ -23,6 +23,7 @@
 #include "adaptation/labeling_bridge.h"
 #include "adaptation/network_output.h"
 #include "adaptation/orbits.h"
+#include "adaptation/refill.h"
 #include "adaptation/thin_wall.h"
 #include "adaptation/weights.h"
 #include "geometry/errors.h"
@@ -40,6 +41,10 @@ constexpr double kQuadOrthogonality = 10;
 constexpr double kThinWallDistance = 3;
 /// Rounds of forbidding crumbs and solving again; what is left then is dropped with the next round.
 constexpr int kCrumbRounds = 20;
+/// Rounds of refilling after the loop has converged; each ends in a converged loop again.
+constexpr int kRefillRounds = 3;
+/// A dropped piece of which this share came back is no longer listed as dropped.
+constexpr double kCameBack = 0.5;
 
 AdaptationOptions with_defaults(AdaptationOptions options) {
     if (options.lambda1 < 0) {
@@ -81,6 +86,7 @@ public:
           solver_(*options.solver, solve_options(options)),
           state_(make_initial_state(mesh, queries_, initial, scale_, options_)) {
         dropped_ = state_.dropped;
+        dense_initial_ = state_.network.arcs;
         conflict_options_.mode = options_.mode;
         conflict_options_.threads = options_.threads;
         if (options_.mode == AdaptationMode::Best && options_.thin_walls == ThinWalls::Exempt) {
@@ -93,17 +99,11 @@ public:
     AdaptationResult run() {
         const auto start = Clock::now();
         state_.network.merge_regular_nodes([](int) { return true; });
-        report_.status = AdaptationStatus::IterationLimit;
-        for (int k = 1; k <= options_.max_iterations; ++k) {
-            IterationReport iteration;
-            iteration.iteration = k;
-            const bool goes_on = iterate(iteration);
-            report_.iterations.push_back(std::move(iteration));
-            if (!goes_on) break;
-            if (options_.stop.stop_requested()) {
-                report_.status = AdaptationStatus::Interrupted;
-                break;
-            }
+        run_to_fixpoint();
+        const bool refills = is_best() && options_.unit == LabelUnit::Segment;
+        for (int k = 0; refills && k < kRefillRounds; ++k) {
+            if (report_.status != AdaptationStatus::Converged || !refill()) break;
+            run_to_fixpoint();
         }
         AdaptationResult result = finish();
         result.report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -130,6 +130,48 @@ private:
             ~Booking() { seconds += std::chrono::duration<double>(Clock::now() - start).count(); }
         } booking{iteration.seconds[phase]};
         return work();
+    }
+
+    void run_to_fixpoint() {
+        report_.status = AdaptationStatus::IterationLimit;
+        while (static_cast<int>(report_.iterations.size()) < options_.max_iterations) {
+            IterationReport iteration;
+            iteration.iteration = static_cast<int>(report_.iterations.size()) + 1;
+            const bool goes_on = iterate(iteration);
+            report_.iterations.push_back(std::move(iteration));
+            if (!goes_on) return;
+            if (options_.stop.stop_requested()) {
+                report_.status = AdaptationStatus::Interrupted;
+                return;
+            }
+        }
+    }
+
+    /// Adds what still fits between the kept arcs; false when nothing does.
+    bool refill() {
+        const NetworkGraph graph = make_graph(network());
+        RefillInput input;
+        input.network = &network();
+        input.graph = &graph;
+        input.initial = &dense_initial_;
+        input.scale = scale_;
+        input.min_length = state_.crumbs.min_length;
+        input.threads = options_.threads;
+        input.worth = [this](const WorkingArc& arc, int first, int last) {
+            const double length = (arc.points[last] - arc.points[first]).norm();
+            return segment_weight(attributes_of_stretch(arc, first, last, length), scale_,
+                                  options_);
+        };
+        std::vector<WorkingArc> found = find_refills(input);
+        for (WorkingArc& arc : found) {
+            const bool is_loop = arc.points.front() == arc.points.back();
+            if (arc.nodes[0] < 0) arc.nodes[0] = new_node(arc.points.front());
+            if (arc.nodes[1] < 0)
+                arc.nodes[1] = is_loop ? arc.nodes[0] : new_node(arc.points.back());
+            network().arcs.push_back(std::move(arc));
+        }
+        network().merge_regular_nodes([](int) { return false; });
+        return !found.empty();
     }
 
     /// One round; false when the loop ends.
@@ -262,32 +304,40 @@ private:
         iteration.exempt_pairs = conflicts.exempt.size();
     }
 
-    std::vector<SegmentAttributes> attributes_of(const NetworkGraph& graph) {
-        std::vector<SegmentAttributes> result(graph.sources.size());
+    SegmentAttributes attributes_of_stretch(const WorkingArc& arc, int first, int last,
+                                            double chord) const {
+        SegmentAttributes result;
+        double length = 0, loop = 0, symmetric = 0, log_contrast = 0;
+        for (int k = first; k < last; ++k) {
+            const double piece = (arc.points[k + 1] - arc.points[k]).norm();
+            const OriginAttributes& origin = state_.origins[arc.origins[k]];
+            const double crease = (arc.crease[k] + arc.crease[k + 1]) / 2;
+            length += piece;
+            result.sharpness += piece * (arc.sharpness[k] + arc.sharpness[k + 1]) / 2;
+            log_contrast += piece * std::log(crease_contrast(crease));
+            result.curve_length += piece * origin.curve_length;
+            loop += origin.is_on_loop ? piece : 0;
+            symmetric += origin.is_symmetric ? piece : 0;
+        }
+        if (length > 0) {
+            result.sharpness /= length;
+            result.curve_length /= length;
+            result.contrast = std::exp(log_contrast / length);
+        }
+        result.is_on_loop = loop > length / 2;
+        result.is_symmetric = symmetric > length / 2;
+        result.length = chord;
+        return result;
+    }
+
+    std::vector<SegmentAttributes> attributes_of(const NetworkGraph& graph) const {
+        std::vector<SegmentAttributes> result;
+        result.reserve(graph.sources.size());
         for (std::size_t s = 0; s < graph.sources.size(); ++s) {
             const SegmentSource& source = graph.sources[s];
-            const WorkingArc& arc = network().arcs[source.arc];
-            SegmentAttributes& attributes = result[s];
-            double length = 0, loop = 0, symmetric = 0, log_contrast = 0;
-            for (int k = source.first_sample; k < source.last_sample; ++k) {
-                const double piece = (arc.points[k + 1] - arc.points[k]).norm();
-                const OriginAttributes& origin = state_.origins[arc.origins[k]];
-                length += piece;
-                attributes.sharpness += piece * (arc.sharpness[k] + arc.sharpness[k + 1]) / 2;
-                log_contrast +=
-                    piece * std::log(crease_contrast((arc.crease[k] + arc.crease[k + 1]) / 2));
-                attributes.curve_length += piece * origin.curve_length;
-                loop += origin.is_on_loop ? piece : 0;
-                symmetric += origin.is_symmetric ? piece : 0;
-            }
-            if (length > 0) {
-                attributes.sharpness /= length;
-                attributes.curve_length /= length;
-                attributes.contrast = std::exp(log_contrast / length);
-            }
-            attributes.is_on_loop = loop > length / 2;
-            attributes.is_symmetric = symmetric > length / 2;
-            attributes.length = graph.graph.length(static_cast<int>(s));
+            result.push_back(attributes_of_stretch(state_.network.arcs[source.arc],
+                                                   source.first_sample, source.last_sample,
+                                                   graph.graph.length(static_cast<int>(s))));
         }
         return result;
     }
@@ -501,7 +551,6 @@ private:
         int gap = 0;
         while (flags[gap]) ++gap;
         if (is_junction) {
-            std::vector<bool> head(flags), tail(flags);
             for (int k = 0; k < count;) {
                 int end = k;
                 while (end < count && flags[end] == flags[k]) ++end;
@@ -582,6 +631,21 @@ private:
         }
     }
 
+    /// Refilling brings dropped samples back; their pieces are not dropped any more.
+    void forget_returned_pieces() {
+        std::set<std::array<double, 3>> present;
+        for (const WorkingArc& arc : network().arcs) {
+            for (const Vec3& p : arc.points) present.insert({p.x(), p.y(), p.z()});
+        }
+        std::erase_if(dropped_, [&](const DroppedPiece& piece) {
+            std::size_t back = 0;
+            for (const Vec3& p : piece.polyline) back += present.contains({p.x(), p.y(), p.z()});
+            return piece.polyline.size() > 2 &&
+                   static_cast<double>(back) >
+                       kCameBack * static_cast<double>(piece.polyline.size());
+        });
+    }
+
     AdaptationResult finish() {
         for (WorkingArc& arc : network().arcs) {
             // Only an interrupted loop leaves arcs unsampled.
@@ -601,6 +665,7 @@ private:
         result.network = make_adapted_network(initial_, network(), graph, weights, queries_);
         result.network.scale = scale_.rmin;
         result.network.ratio = scale_.ratio();
+        forget_returned_pieces();
         result.network.dropped = std::move(dropped_);
         for (const std::string& warning : report_.warnings) {
             result.network.notes.push_back(warning);
@@ -629,6 +694,7 @@ private:
     ConflictOptions conflict_options_;
     AdaptationReport report_;
     std::vector<DroppedPiece> dropped_;
+    std::vector<WorkingArc> dense_initial_;  ///< as sampled, before anything happened
     bool is_first_resampling_ = true;
     // Of the current iteration:
     std::vector<double> weights_;
