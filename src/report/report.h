@@ -13,23 +13,23 @@ namespace fcn {
 
 /// One solver on one problem, side by side with the others.
 struct SolverComparison {
-    std::string problem;   ///< e.g. "iteration 1"
+    std::string problem;  ///< e.g. "iteration 1"
     std::string solver;
-    std::string status;    ///< optimal, feasible, ...
-    double value = 0;      ///< real units
-    double bound = 0;      ///< NaN when none
-    double gap = 0;        ///< relative; NaN when none
+    std::string status;  ///< optimal, feasible, ...
+    double value = 0;    ///< real units
+    double bound = 0;    ///< NaN when none
+    double gap = 0;      ///< relative; NaN when none
     double seconds = 0;
 };
 
 /// Everything that was done for one mesh at one scale.
 struct ScaleRecord {
-    std::string label;     ///< as typed: "2%"
+    std::string label;  ///< as typed: "2%"
     double rmin = 0;
     AdaptationResult adaptation;
     ConformityReport conformity;
     std::vector<SolverComparison> solvers;
-    LoadedMesh remesh;                ///< on the adapted network
+    LoadedMesh remesh;  ///< on the adapted network
     TriangleQuality remesh_quality;
     TriangleQuality initial_quality;  ///< remeshed with the initial network protected
     bool has_remesh = false, has_initial_remesh = false;
@@ -45,7 +45,7 @@ struct MeshRecord {
 
 struct ReportOptions {
     std::string title = "scalefcn report";
-    std::string command;       ///< the command line that made it
+    std::string command;  ///< the command line that made it
     bool has_timings = true;
 };
 

@@ -1,0 +1,133 @@
+// What the report shows. Segments are chords and leave the surface between their nodes; they are
+// drawn as their closest points on the surface, so that they neither vanish in it nor hover: what
+// is seen is the polygon that the remesher gets.
+#include "report/report_pictures.h"
+
+#include <cstdio>
+#include <set>
+
+namespace fcn {
+namespace {
+
+constexpr int kChordSamples = 12;
+constexpr double kThin = 2, kMedium = 2.4, kThick = 3;  ///< pixels
+constexpr int kWidth = 840, kHeight = 640;
+
+using Polyline = std::vector<Vec3>;
+
+bool is_pinned(const NetworkArc& arc) {
+    return arc.kind != ArcKind::Feature || arc.pin == Pin::Keep;
+}
+
+Polyline polyline_of(const NetworkArc& arc) {
+    Polyline points;
+    for (const ArcSample& sample : arc.samples) points.push_back(sample.position);
+    return points;
+}
+
+/// Arcs of a network as layers: free ones, and pinned ones on top.
+std::vector<PictureLayer> arc_layers(const FeatureCurveNetwork& network, double width) {
+    const ReportPalette palette;
+    std::vector<PictureLayer> layers{{{}, palette.initial, width}, {{}, palette.pinned, width}};
+    for (const NetworkArc& arc : network.arcs)
+        layers[is_pinned(arc) ? 1 : 0].polylines.push_back(polyline_of(arc));
+    return layers;
+}
+
+bool has_node(const FeatureCurveNetwork& network, int node) {
+    return node >= 0 && node < static_cast<int>(network.nodes.size());
+}
+
+/// A chord as it lies on the surface; where the surface is far away, the chord itself.
+Polyline on_surface(const Vec3& from, const Vec3& to, const SurfaceQueries& surface) {
+    const double reach = 0.3 * (to - from).norm();
+    Polyline points;
+    for (int i = 0; i <= kChordSamples; ++i) {
+        const double t = static_cast<double>(i) / kChordSamples;
+        const Vec3 chord = (1 - t) * from + t * to;
+        const ClosestPoint closest = surface.closest(chord);
+        points.push_back(closest.distance <= reach ? closest.position : chord);
+    }
+    return points;
+}
+
+/// Segments (free, pinned) and a dot on each of their nodes.
+std::vector<PictureLayer> segment_layers(const FeatureCurveNetwork& network,
+                                         const SurfaceQueries& surface, double width) {
+    const ReportPalette palette;
+    std::vector<PictureLayer> layers{{{}, palette.kept, width},
+                                     {{}, palette.pinned, width},
+                                     {{}, palette.kept, width * 1.25},
+                                     {{}, palette.pinned, width * 1.25}};
+    std::set<int> dotted;
+    for (const NetworkSegment& segment : network.segments) {
+        if (!has_node(network, segment.nodes[0]) || !has_node(network, segment.nodes[1])) continue;
+        const bool has_arc =
+            segment.arc >= 0 && segment.arc < static_cast<int>(network.arcs.size());
+        const std::size_t kind =
+            has_arc && is_pinned(network.arcs[static_cast<std::size_t>(segment.arc)]) ? 1 : 0;
+        const auto at = [&](int end) {
+            return network
+                .nodes[static_cast<std::size_t>(segment.nodes[static_cast<std::size_t>(end)])]
+                .position;
+        };
+        layers[kind].polylines.push_back(on_surface(at(0), at(1), surface));
+        for (const int end : {0, 1})
+            if (dotted.insert(segment.nodes[static_cast<std::size_t>(end)]).second)
+                layers[2 + kind].polylines.push_back({at(end)});
+    }
+    return layers;
+}
+
+PictureLayer dropped_layer(const FeatureCurveNetwork& network) {
+    PictureLayer layer{{}, ReportPalette().dropped, kThick};
+    for (const DroppedPiece& piece : network.dropped)
+        if (piece.polyline.size() > 1) layer.polylines.push_back(piece.polyline);
+    return layer;
+}
+
+}  // namespace
+
+std::string css_color(const Color& color) {
+    char text[8];
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", color.r, color.g, color.b);
+    return text;
+}
+
+ReportPictures::ReportPictures(const MeshRecord& record)
+    : record_(record), camera_(choose_camera(record.mesh.mesh)), surface_(record.mesh.mesh) {}
+
+PictureOptions ReportPictures::options(bool is_wireframe) const {
+    PictureOptions options;
+    options.width = kWidth;
+    options.height = kHeight;
+    options.view = camera_.toward;
+    options.up = camera_.up;
+    options.is_drawing_wireframe = is_wireframe;
+    return options;
+}
+
+std::string ReportPictures::initial() const {
+    return render_png(record_.mesh.mesh, arc_layers(record_.initial, kMedium), options());
+}
+
+std::string ReportPictures::fate(const ScaleRecord& scale) const {
+    std::vector<PictureLayer> layers = arc_layers(record_.initial, kThin);
+    layers.insert(layers.begin() + 1, dropped_layer(scale.adaptation.network));
+    return render_png(record_.mesh.mesh, layers, options());
+}
+
+std::string ReportPictures::adapted(const ScaleRecord& scale) const {
+    return render_png(record_.mesh.mesh,
+                      segment_layers(scale.adaptation.network, surface_, kMedium), options());
+}
+
+std::string ReportPictures::remesh(const ScaleRecord& scale) const {
+    if (scale.remesh.mesh.n_faces() == 0) return render_png(scale.remesh.mesh, {}, options());
+    const SurfaceQueries remeshed(scale.remesh.mesh);
+    std::vector<PictureLayer> layers = segment_layers(scale.adaptation.network, remeshed, kMedium);
+    layers.resize(2);  // the mesh shows the nodes
+    return render_png(scale.remesh.mesh, layers, options(true));
+}
+
+}  // namespace fcn

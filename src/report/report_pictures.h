@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/surface_queries.h"
+#include "report/camera.h"
+#include "report/picture.h"
+#include "report/report.h"
+
+namespace fcn {
+
+/// Colours of the report's pictures and their legends.
+struct ReportPalette {
+    Color initial{38, 70, 122};
+    Color kept{176, 24, 44};
+    Color dropped{232, 128, 8};
+    Color pinned{22, 130, 72};
+};
+
+std::string css_color(const Color& color);
+
+/// The pictures of one mesh, all from the same side.
+class ReportPictures {
+public:
+    explicit ReportPictures(const MeshRecord& record);
+
+    /// The mesh with its initial network; pinned arcs in their own colour.
+    std::string initial() const;
+    /// The initial network with what was dropped at this scale in another colour.
+    std::string fate(const ScaleRecord& scale) const;
+    /// The adapted network: segments as the straight pieces they are, laid onto the surface.
+    std::string adapted(const ScaleRecord& scale) const;
+    /// The remeshed surface with its edges and the adapted network.
+    std::string remesh(const ScaleRecord& scale) const;
+
+private:
+    PictureOptions options(bool is_wireframe = false) const;
+
+    const MeshRecord& record_;
+    CameraFrame camera_;
+    SurfaceQueries surface_;
+};
+
+}  // namespace fcn

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "report/html.h"
+#include "report/report.h"
+
+namespace fcn {
+
+/// Edge length a remesh has at a scale: L = 1.2 rmin.
+double target_edge_length(double rmin);
+
+/// What a mesh engineer reads: triangles on the initial and on the adapted network.
+HtmlTable engineer_table(const std::vector<MeshRecord>& meshes);
+
+/// Every solver on every problem of one scale, side by side.
+HtmlTable solver_table(const ScaleRecord& scale, bool has_timings);
+
+/// Conflicts, labels and what became of them, per iteration.
+HtmlTable iteration_table(const ScaleRecord& scale, bool has_timings);
+
+/// Dropped pieces by reason: count, length, weight.
+HtmlTable reason_table(const FeatureCurveNetwork& network);
+
+/// The heaviest dropped pieces and what was kept against them.
+HtmlTable heaviest_drops_table(const FeatureCurveNetwork& network, std::size_t count);
+
+/// Violations of strict conformity, those in the verdict first, at most `count`.
+HtmlTable violation_table(const ConformityReport& report, std::size_t count);
+
+}  // namespace fcn
