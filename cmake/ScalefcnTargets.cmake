@@ -1,6 +1,9 @@
 # One interface target carries the warnings; every library is made by scalefcn_add_library so that
 # names, include paths and installation stay uniform.
 
+# Packages are looked for where they are needed first; tests link to the same ones.
+set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)
+
 add_library(scalefcn_warnings INTERFACE)
 target_compile_options(scalefcn_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow
                        -Wnon-virtual-dtor -Woverloaded-virtual)
