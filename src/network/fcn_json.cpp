@@ -8,13 +8,12 @@
 #include <cmath>
 
 #include "geometry/errors.h"
+#include "geometry/text_writer.h"
 #include "network/json_cursor.h"
 #include "network/network_io.h"
 
 namespace fcn {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "scalefcn-network";
 constexpr int kVersion = 1;
@@ -24,91 +23,123 @@ constexpr std::array<const char*, 3> kPinNames{"none", "keep", "drop"};
 
 // ---- writing
 
-Json number(double value) {
-    // JSON has no NaN or infinity; validate() forbids them too.
-    if (!std::isfinite(value)) throw LogicError("network_to_json: a number is not finite");
-    return value;
-}
-
-Json vector_json(const Vec3& v) { return Json::array({number(v[0]), number(v[1]), number(v[2])}); }
-
-Json point_json(const Vec3& position, const SurfacePoint& surface) {
-    Json point = vector_json(position);
-    if (surface.face == -1 && surface.barycentric == Vec3::Zero()) return point;
-    point.push_back(surface.face);
-    for (int k = 0; k < 3; ++k) point.push_back(number(surface.barycentric[k]));
-    return point;
-}
-
-Json to_json(const NetworkNode& node) { return point_json(node.position, node.surface); }
-
-Json to_json(const NetworkArc& arc) {
-    Json samples = Json::array();
-    for (const ArcSample& sample : arc.samples)
-        samples.push_back(point_json(sample.position, sample.surface));
-    return {{"nodes", arc.nodes},
-            {"curve", arc.curve},
-            {"patches", arc.patches},
-            {"kind", kKindNames[static_cast<std::size_t>(arc.kind)]},
-            {"pin", kPinNames[static_cast<std::size_t>(arc.pin)]},
-            {"source", arc.source},
-            {"dihedral", number(arc.dihedral)},
-            {"samples", std::move(samples)},
-            {"origins", arc.origins}};
-}
-
-Json to_json(const NetworkSegment& segment) {
-    return {{"nodes", segment.nodes},
-            {"arc", segment.arc},
-            {"first_sample", segment.first_sample},
-            {"last_sample", segment.last_sample},
-            {"weight", number(segment.weight)},
-            {"is_long", segment.is_long}};
-}
-
-Json to_json(const NetworkCurve& curve) {
-    return {{"arcs", curve.arcs},
-            {"is_reversed", curve.is_reversed},
-            {"is_closed", curve.is_closed},
-            {"length", number(curve.length)}};
-}
-
-Json to_json(const SymmetryOrbit& orbit) {
-    Json members = Json::array();
-    for (const OrbitMember& member : orbit.members) {
-        Json linear = Json::array();
-        for (int row = 0; row < 3; ++row)
-            linear.push_back(vector_json(member.linear.row(row).transpose()));
-        members.push_back({{"arc", member.arc},
-                           {"linear", std::move(linear)},
-                           {"translation", vector_json(member.translation)},
-                           {"is_reversed", member.is_reversed}});
+/// Writes JSON text; only strings need more than their digits.
+class JsonText {
+public:
+    JsonText& operator<<(std::string_view text) {
+        out_ << text;
+        return *this;
     }
-    return {{"members", std::move(members)}};
+    // Without it a literal would rather be a bool than a string_view.
+    JsonText& operator<<(const char* text) { return *this << std::string_view(text); }
+    JsonText& operator<<(int value) {
+        out_ << value;
+        return *this;
+    }
+    JsonText& operator<<(bool value) { return *this << (value ? "true" : "false"); }
+    JsonText& operator<<(double value) {
+        // JSON has no NaN or infinity; validate() forbids them too.
+        if (!std::isfinite(value)) throw LogicError("network_to_json: a number is not finite");
+        if (value == 0 && std::signbit(value)) return *this << "-0.0";  // "-0" reads as integer
+        out_ << value;
+        return *this;
+    }
+    JsonText& operator<<(const Vec3& v) {
+        return *this << "[" << v[0] << "," << v[1] << "," << v[2] << "]";
+    }
+    JsonText& string(const std::string& text) {
+        // Bytes that are not UTF-8 (odd file names) become U+FFFD, not an unreadable file.
+        constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+        return *this << std::string_view(nlohmann::json(text).dump(-1, ' ', false, kReplace));
+    }
+    template <typename Elements, typename Write>
+    JsonText& list(const Elements& elements, std::string_view separator, const Write& write) {
+        *this << "[";
+        bool is_first = true;
+        for (const auto& element : elements) {
+            *this << (is_first ? separator.substr(separator.front() == ',') : separator);
+            is_first = false;
+            write(element);
+        }
+        return *this << "]";
+    }
+    template <typename Elements>
+    JsonText& list(const Elements& elements) {
+        return list(elements, ",", [&](const auto& element) { *this << element; });
+    }
+    std::string take() { return out_.take(); }
+
+private:
+    TextWriter out_;
+};
+
+template <typename Point>
+void write_point(JsonText& out, const Point& point) {
+    const SurfacePoint& surface = point.surface;
+    if (surface.face == -1 && surface.barycentric == Vec3::Zero()) {
+        out << point.position;
+        return;
+    }
+    const Vec3 &p = point.position, &b = surface.barycentric;
+    out << "[" << p[0] << "," << p[1] << "," << p[2] << "," << surface.face << "," << b[0] << ","
+        << b[1] << "," << b[2] << "]";
 }
 
-Json to_json(const DroppedPiece& piece) {
-    Json polyline = Json::array();
-    for (const Vec3& point : piece.polyline) polyline.push_back(vector_json(point));
-    return {{"origin_arc", piece.origin_arc}, {"iteration", piece.iteration},
-            {"label", piece.label},           {"reason", piece.reason},
-            {"blockers", piece.blockers},     {"weight", number(piece.weight)},
-            {"polyline", std::move(polyline)}};
+void write_element(JsonText& out, const NetworkNode& node) { write_point(out, node); }
+
+void write_element(JsonText& out, const NetworkArc& arc) {
+    out << "{\"nodes\":";
+    out.list(arc.nodes) << ",\"curve\":" << arc.curve << ",\"patches\":";
+    out.list(arc.patches) << ",\"kind\":\"" << kKindNames[static_cast<std::size_t>(arc.kind)]
+                          << "\",\"pin\":\"" << kPinNames[static_cast<std::size_t>(arc.pin)]
+                          << "\",\"source\":";
+    out.string(arc.source) << ",\"dihedral\":" << arc.dihedral << ",\"samples\":";
+    out.list(arc.samples, ",", [&](const ArcSample& sample) { write_point(out, sample); });
+    out << ",\"origins\":";
+    out.list(arc.origins) << "}";
 }
 
-Json to_json(const std::string& note) { return note; }
-
-std::string dump(const Json& value) {
-    // Bytes that are not UTF-8 (odd file names) become U+FFFD rather than an unreadable file.
-    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+void write_element(JsonText& out, const NetworkSegment& segment) {
+    out << "{\"nodes\":";
+    out.list(segment.nodes) << ",\"arc\":" << segment.arc
+                            << ",\"first_sample\":" << segment.first_sample
+                            << ",\"last_sample\":" << segment.last_sample
+                            << ",\"weight\":" << segment.weight
+                            << ",\"is_long\":" << segment.is_long << "}";
 }
+
+void write_element(JsonText& out, const NetworkCurve& curve) {
+    out << "{\"arcs\":";
+    out.list(curve.arcs) << ",\"is_reversed\":";
+    out.list(curve.is_reversed, ",", [&](bool is_reversed) { out << is_reversed; })
+        << ",\"is_closed\":" << curve.is_closed << ",\"length\":" << curve.length << "}";
+}
+
+void write_element(JsonText& out, const SymmetryOrbit& orbit) {
+    out << "{\"members\":";
+    out.list(orbit.members, ",", [&](const OrbitMember& member) {
+        out << "{\"arc\":" << member.arc << ",\"linear\":[";
+        for (int row = 0; row < 3; ++row)
+            out << (row > 0 ? "," : "") << Vec3(member.linear.row(row).transpose());
+        out << "],\"translation\":" << member.translation
+            << ",\"is_reversed\":" << member.is_reversed << "}";
+    }) << "}";
+}
+
+void write_element(JsonText& out, const DroppedPiece& piece) {
+    out << "{\"origin_arc\":" << piece.origin_arc << ",\"iteration\":" << piece.iteration
+        << ",\"label\":" << piece.label << ",\"reason\":";
+    out.string(piece.reason) << ",\"blockers\":";
+    out.list(piece.blockers) << ",\"weight\":" << piece.weight << ",\"polyline\":";
+    out.list(piece.polyline) << "}";
+}
+
+void write_element(JsonText& out, const std::string& note) { out.string(note); }
 
 template <typename Element>
-void append_list(std::string& out, const char* key, const std::vector<Element>& elements) {
-    out += std::string(",\n\"") + key + "\": [";
-    for (std::size_t k = 0; k < elements.size(); ++k)
-        out += (k == 0 ? "\n" : ",\n") + dump(to_json(elements[k]));
-    out += "]";
+void write_list(JsonText& out, const char* key, const std::vector<Element>& elements) {
+    out << ",\n\"" << key << "\": ";
+    out.list(elements, ",\n", [&](const Element& element) { write_element(out, element); });
 }
 
 std::string hash_text(std::uint64_t hash) {
@@ -276,26 +307,23 @@ FeatureCurveNetwork read_document(const JsonCursor& at) {
 }  // namespace
 
 std::string network_to_json(const FeatureCurveNetwork& network) {
-    const Json header = {{"format", kFormat},
-                         {"version", kVersion},
-                         {"mesh_name", network.mesh_name},
-                         {"mesh_hash", hash_text(network.mesh_hash)},
-                         {"units", network.units},
-                         {"diagonal", number(network.diagonal)},
-                         {"scale", number(network.scale)},
-                         {"ratio", number(network.ratio)}};
-    std::string out = "{";
-    for (auto item = header.begin(); item != header.end(); ++item)
-        out +=
-            (item == header.begin() ? "\n\"" : ",\n\"") + item.key() + "\": " + dump(item.value());
-    append_list(out, "nodes", network.nodes);
-    append_list(out, "arcs", network.arcs);
-    append_list(out, "segments", network.segments);
-    append_list(out, "curves", network.curves);
-    append_list(out, "orbits", network.orbits);
-    append_list(out, "dropped", network.dropped);
-    append_list(out, "notes", network.notes);
-    return out + "\n}\n";
+    JsonText out;
+    out << "{\n\"format\": \"" << kFormat << "\",\n\"version\": " << kVersion
+        << ",\n\"mesh_name\": ";
+    out.string(network.mesh_name) << ",\n\"mesh_hash\": \"" << hash_text(network.mesh_hash)
+                                  << "\",\n\"units\": ";
+    out.string(network.units) << ",\n\"diagonal\": " << network.diagonal
+                              << ",\n\"scale\": " << network.scale
+                              << ",\n\"ratio\": " << network.ratio;
+    write_list(out, "nodes", network.nodes);
+    write_list(out, "arcs", network.arcs);
+    write_list(out, "segments", network.segments);
+    write_list(out, "curves", network.curves);
+    write_list(out, "orbits", network.orbits);
+    write_list(out, "dropped", network.dropped);
+    write_list(out, "notes", network.notes);
+    out << "\n}\n";
+    return out.take();
 }
 
 FeatureCurveNetwork network_from_json(const std::string& text, const std::string& file_name) {

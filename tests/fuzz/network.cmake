@@ -1,17 +1,11 @@
-# The network readers' fuzz target: a short run on mutated files as a test, and with Clang and
-# SCALEFCN_BUILD_FUZZERS a libFuzzer program.
-if(SCALEFCN_BUILD_TESTS)
-    add_executable(network_fuzz_run ${CMAKE_CURRENT_LIST_DIR}/network_fuzz.cpp
-                                    ${CMAKE_CURRENT_LIST_DIR}/network_fuzz_run.cpp)
-    target_include_directories(network_fuzz_run PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-    target_link_libraries(network_fuzz_run PRIVATE sample_networks scalefcn_warnings)
-    add_test(NAME network_fuzz COMMAND network_fuzz_run 20000)
-    set_tests_properties(network_fuzz PROPERTIES TIMEOUT 600)
-endif()
-if(SCALEFCN_BUILD_FUZZERS AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-    add_executable(network_fuzzer ${CMAKE_CURRENT_LIST_DIR}/network_fuzz.cpp)
-    target_include_directories(network_fuzzer PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-    target_link_libraries(network_fuzzer PRIVATE sample_networks scalefcn_warnings)
-    target_compile_options(network_fuzzer PRIVATE -fsanitize=fuzzer,address)
-    target_link_options(network_fuzzer PRIVATE -fsanitize=fuzzer,address)
+# The network readers: with libFuzzer a program to run by hand, otherwise a short run on mutations
+# of files that the writers make, so the seeds are never out of date.
+if(SCALEFCN_USE_LIBFUZZER)
+    scalefcn_add_fuzz_target(network_fuzz SOURCES network_fuzz.cpp LINK sample_networks)
+elseif(SCALEFCN_BUILD_TESTS)
+    add_executable(network_fuzz network_fuzz.cpp network_fuzz_run.cpp)
+    target_include_directories(network_fuzz PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_link_libraries(network_fuzz PRIVATE sample_networks scalefcn_warnings)
+    add_test(NAME fuzz.network_fuzz COMMAND network_fuzz 20000)
+    set_tests_properties(fuzz.network_fuzz PROPERTIES TIMEOUT 600)
 endif()

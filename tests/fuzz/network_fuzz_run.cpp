@@ -1,5 +1,5 @@
 // A short run of the network fuzz target without a fuzzing engine: files of every format, mutated
-// at random. Usage: network_fuzz_run [RUNS] [SEED]. A failure prints its input's seed and aborts.
+// at random. Usage: network_fuzz [RUNS] [SEED]. A failure prints its input's seed and aborts.
 
 #include <algorithm>
 #include <csignal>
@@ -122,7 +122,7 @@ private:
 std::uint64_t current_seed = 0;
 
 void report(int) {
-    std::fprintf(stderr, "failed: network_fuzz_run 1 %llu\n",
+    std::fprintf(stderr, "failed: network_fuzz 1 %llu\n",
                  static_cast<unsigned long long>(current_seed));
     std::_Exit(1);
 }
