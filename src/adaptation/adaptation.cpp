@@ -39,6 +39,8 @@ constexpr double kPaperLoopFactor = 100;
 constexpr double kQuadOrthogonality = 10;
 /// A thin wall's surface distance, in rmin.
 constexpr double kThinWallDistance = 3;
+/// A point this close to an edge or a vertex of the mesh lies on it, in rmin.
+constexpr double kTouch = 1e-3;
 /// Rounds of forbidding crumbs and solving again; what is left then is dropped with the next round.
 constexpr int kCrumbRounds = 20;
 /// Rounds of refilling after the loop has converged; each ends in a converged loop again.
@@ -82,7 +84,7 @@ public:
           options_(with_defaults(options)),
           scale_(make_scale(options.rmin, options.ratio, options.target)),
           queries_(mesh.mesh),
-          thin_wall_(mesh.mesh, queries_, kThinWallDistance * options.rmin),
+          thin_wall_(mesh.mesh, queries_, kThinWallDistance * options.rmin, kTouch * options.rmin),
           solver_(*options.solver, solve_options(options)),
           state_(make_initial_state(mesh, queries_, initial, scale_, options_)) {
         dropped_ = state_.dropped;
@@ -263,7 +265,7 @@ private:
                 find_collapsible_clusters(network(), graph, conflicts.conflicts, scale_);
             if (arcs.empty()) return;
             for (int a : arcs) record_short(a, iteration.iteration, -1, {});
-            iteration.collapsed += collapse_short_arcs(network(), arcs, scale_.rmin, queries_);
+            iteration.collapsed += collapse_short_arcs(network(), arcs, scale_, queries_);
             network().merge_regular_nodes([](int) { return true; });
             resample(iteration.iteration);
             graph = make_graph(network());
@@ -508,14 +510,30 @@ private:
             }
         }
         prune_dangling(given_up);
-        iteration.collapsed += static_cast<std::size_t>(
-            collapse_short_arcs(network(), given_up, scale_.rmin, queries_));
+        iteration.collapsed +=
+            static_cast<std::size_t>(collapse_short_arcs(network(), given_up, scale_, queries_));
         const int joins = network().merge_regular_nodes(
             [&](int v) { return !is_best() || must_resample.contains(v); });
         // A join alone is progress only if it asks for a new chain.
         const bool has_fresh = std::ranges::any_of(
             network().arcs, [](const WorkingArc& arc) { return arc.needs_resampling(); });
         return has_changed || (joins > 0 && has_fresh);
+    }
+
+    /// A short arc that is kept without being fused (its ends are far apart and no chain exists
+    /// between them) must not be the end of the loop. True when there was one.
+    bool drop_idle_short_arcs(const IterationReport& iteration) {
+        bool has_dropped = false;
+        for (int a = 0; a < static_cast<int>(network().arcs.size()); ++a) {
+            WorkingArc& arc = network().arcs[a];
+            if (!arc.is_alive || !arc.is_short || arc.is_pinned) continue;
+            record_short(a, iteration.iteration, -1, {});
+            arc = WorkingArc{};
+            arc.is_alive = false;
+            has_dropped = true;
+        }
+        if (has_dropped) network().merge_regular_nodes([](int) { return true; });
+        return has_dropped;
     }
 
     /// Replaces an arc by its runs of kept segments; in best mode they keep their chains.

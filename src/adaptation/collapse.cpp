@@ -24,14 +24,18 @@ double end_sharpness(const WorkingArc& arc, int end) {
 
 class Collapser {
 public:
-    Collapser(WorkingNetwork& network, double rmin, const SurfaceQueries& queries)
-        : network_(network), rmin_(rmin), queries_(queries), stars_(network.stars()) {}
+    Collapser(WorkingNetwork& network, const ScaleInterval& scale, const SurfaceQueries& queries)
+        : network_(network),
+          rmin_(scale.rmin),
+          spacing_(sample_spacing(scale)),
+          queries_(queries),
+          stars_(network.stars()) {}
 
     bool collapse(int index) {
         WorkingArc& arc = network_.arcs[index];
         const int u = arc.nodes[0], v = arc.nodes[1];
         remove(index);
-        if (u == v || is_pinned(u) & is_pinned(v)) return false;
+        if (u == v || (is_pinned(u) && is_pinned(v))) return false;
         const double distance = (network_.nodes[u].position - network_.nodes[v].position).norm();
         if (distance >= rmin_ || stars_[u].empty() || stars_[v].empty()) return false;
         const bool keeps_u = is_pinned(u) != is_pinned(v)   ? is_pinned(u)
@@ -67,6 +71,7 @@ private:
     void move(int from, int to) {
         for (const auto& [arc, end] : stars_[from]) {
             drag(network_.arcs[arc], end, network_.nodes[to].position);
+            network_.refine(arc, spacing_);
             network_.arcs[arc].nodes[end] = to;
             stars_[to].emplace_back(arc, end);
         }
@@ -100,6 +105,7 @@ private:
 
     WorkingNetwork& network_;
     double rmin_;
+    double spacing_;
     const SurfaceQueries& queries_;
     std::vector<std::vector<std::pair<int, int>>> stars_;
 };
@@ -127,13 +133,13 @@ bool has_feasible_star(const SegmentGraph& graph, const std::vector<int>& nodes,
 
 }  // namespace
 
-int collapse_short_arcs(WorkingNetwork& network, std::vector<int> arcs, double rmin,
+int collapse_short_arcs(WorkingNetwork& network, std::vector<int> arcs, const ScaleInterval& scale,
                         const SurfaceQueries& queries) {
     std::map<int, double> length;
     for (int a : arcs) length[a] = network.arcs[a].length();
     std::ranges::sort(
         arcs, [&](int a, int b) { return std::pair(length[a], a) < std::pair(length[b], b); });
-    Collapser collapser(network, rmin, queries);
+    Collapser collapser(network, scale, queries);
     int collapses = 0;
     for (int a : arcs) collapses += collapser.collapse(a);
     return collapses;

@@ -12,7 +12,7 @@ namespace fcn {
 /// each to its sharper end (paper section 5.3.3); the others are removed. Ends of arcs that move
 /// are dragged smoothly and projected back to the surface, and lose their chains. Nodes of pinned
 /// arcs do not move. Returns the number of collapses.
-int collapse_short_arcs(WorkingNetwork& network, std::vector<int> arcs, double rmin,
+int collapse_short_arcs(WorkingNetwork& network, std::vector<int> arcs, const ScaleInterval& scale,
                         const SurfaceQueries& queries);
 
 /// Short arcs that may collapse before the labeling: connected clusters of diameter < rmin, no

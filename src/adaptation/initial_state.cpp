@@ -14,8 +14,7 @@ namespace fcn {
 
 namespace {
 
-/// Spacing of dense samples and of sharpness measurements, in rmin.
-constexpr double kSampleSpacing = 1.0 / 50;
+/// Spacing of sharpness measurements, in rmin.
 constexpr double kSharpnessSpacing = 1.0 / 5;
 /// Smooth networks are not blown up by a median of almost nothing (radians).
 constexpr double kSmallestMedian = 0.05;
@@ -179,7 +178,7 @@ InitialState make_initial_state(const LoadedMesh& mesh, const SurfaceQueries& qu
         tbb::parallel_for(0, count, [&](int a) {
             WorkingArc& arc = state.network.arcs[a];
             arc.nodes = initial.arcs[a].nodes;
-            arc.points = densify(initial.arcs[a].samples, kSampleSpacing * scale.rmin).points;
+            arc.points = densify(initial.arcs[a].samples, sample_spacing(scale)).points;
             arc.points.front() = initial.nodes[arc.nodes[0]].position;
             arc.points.back() = initial.nodes[arc.nodes[1]].position;
             arc.origins.assign(arc.points.size() - 1, a);

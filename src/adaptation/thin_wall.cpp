@@ -1,6 +1,7 @@
 #include "adaptation/thin_wall.h"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_set>
 
 namespace fcn {
@@ -16,33 +17,35 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-ThinWallTest::ThinWallTest(const Mesh& mesh, const SurfaceQueries& queries, double surface_distance)
-    : mesh_(mesh), queries_(queries), surface_distance_(surface_distance) {}
+ThinWallTest::ThinWallTest(const Mesh& mesh, const SurfaceQueries& queries, double surface_distance,
+                           double touch)
+    : mesh_(mesh), queries_(queries), surface_distance_(surface_distance), touch_(touch) {}
 
-Vec3 ThinWallTest::normal_at(const SurfacePoint& point) const {
-    // On an edge or vertex the mean of the faces there: a crease must not take one side's word.
-    constexpr double kOnEdge = 1e-3;
-    const FaceHandle face(point.face);
-    const auto vertices = face_vertices(mesh_, face);
-    Vec3 normal = face_normal(mesh_, face);
-    for (int k = 0; k < 3; ++k) {
-        if (point.barycentric[k] > 1 - kOnEdge) {
-            normal.setZero();
-            for (const FaceHandle other : mesh_.vf_range(vertices[k])) {
-                normal += face_normal(mesh_, other);
-            }
-            return normal.normalized();
+Vec3 ThinWallTest::mean_normal_at(const ClosestPoint& point) const {
+    const FaceHandle face(point.surface.face);
+    for (const VertexHandle vertex : face_vertices(mesh_, face)) {
+        if ((mesh_.point(vertex) - point.position).norm() > touch_) continue;
+        Vec3 sum = Vec3::Zero();
+        for (const HalfedgeHandle halfedge : mesh_.voh_range(vertex)) {
+            const FaceHandle other = mesh_.face_handle(halfedge);
+            if (!other.is_valid()) continue;
+            const Vec3 a = mesh_.point(mesh_.to_vertex_handle(halfedge)) - mesh_.point(vertex);
+            const HalfedgeHandle next = mesh_.next_halfedge_handle(halfedge);
+            const Vec3 b = mesh_.point(mesh_.to_vertex_handle(next)) - mesh_.point(vertex);
+            sum += std::atan2(a.cross(b).norm(), a.dot(b)) * face_normal(mesh_, other);
         }
+        return sum.normalized();
     }
+    Vec3 sum = face_normal(mesh_, face);
     for (const HalfedgeHandle halfedge : mesh_.fh_range(face)) {
-        const VertexHandle opposite = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(halfedge));
-        for (int k = 0; k < 3; ++k) {
-            if (vertices[k] != opposite || point.barycentric[k] >= kOnEdge) continue;
-            const FaceHandle other = mesh_.face_handle(mesh_.opposite_halfedge_handle(halfedge));
-            if (other.is_valid()) normal += face_normal(mesh_, other);
+        const Vec3& a = mesh_.point(mesh_.from_vertex_handle(halfedge));
+        const Vec3& b = mesh_.point(mesh_.to_vertex_handle(halfedge));
+        const FaceHandle other = mesh_.face_handle(mesh_.opposite_halfedge_handle(halfedge));
+        if (other.is_valid() && distance_to_segment(point.position, a, b) <= touch_) {
+            sum += face_normal(mesh_, other);
         }
     }
-    return normal.normalized();
+    return sum.normalized();
 }
 
 bool ThinWallTest::is_connected_inside(int from, int to, const Vec3& center, double radius) const {
@@ -65,7 +68,11 @@ bool ThinWallTest::operator()(const Vec3& a, const Vec3& b) const {
     const ClosestPoint p = queries_.closest(a);
     const ClosestPoint q = queries_.closest(b);
     if (p.surface.face < 0 || q.surface.face < 0) return false;
-    if (normal_at(p.surface).dot(normal_at(q.surface)) > -0.5) return false;
+    constexpr double kOpposite = -0.5;
+    const Vec3 plain_p = face_normal(mesh_, FaceHandle(p.surface.face));
+    const Vec3 plain_q = face_normal(mesh_, FaceHandle(q.surface.face));
+    if (plain_p.dot(plain_q) > kOpposite) return false;
+    if (mean_normal_at(p).dot(mean_normal_at(q)) > kOpposite) return false;
     const Vec3 center = (p.position + q.position) / 2;
     return !is_connected_inside(p.surface.face, q.surface.face, center, surface_distance_ / 2);
 }

@@ -9,21 +9,25 @@
 namespace fcn {
 
 /// Says whether a thin wall parts two points that are close in space: surface normals with dot
-/// product <= -0.5 and a surface distance of at least `surface_distance`. The distance is never
+/// product <= -0.5 (those of the closest faces, and the means over the faces within `touch` of the
+/// points, so that no crease is mistaken for a wall) and a surface distance of at least
+/// `surface_distance`. The distance is never
 /// overestimated: a path of that length stays inside a ball around the midpoint, so the points
 /// are parted exactly when the faces in that ball do not connect them. Const and thread-safe.
 class ThinWallTest {
 public:
-    ThinWallTest(const Mesh& mesh, const SurfaceQueries& queries, double surface_distance);
+    ThinWallTest(const Mesh& mesh, const SurfaceQueries& queries, double surface_distance,
+                 double touch);
     bool operator()(const Vec3& a, const Vec3& b) const;
 
 private:
-    Vec3 normal_at(const SurfacePoint& point) const;
+    Vec3 mean_normal_at(const ClosestPoint& point) const;
     bool is_connected_inside(int from, int to, const Vec3& center, double radius) const;
 
     const Mesh& mesh_;
     const SurfaceQueries& queries_;
     double surface_distance_;
+    double touch_;
 };
 
 }  // namespace fcn

@@ -72,6 +72,31 @@ int WorkingNetwork::join(int node, int first_arc, int first_end, int second_arc,
     return first_arc;
 }
 
+void WorkingNetwork::refine(int index, double spacing) {
+    WorkingArc& arc = arcs[index];
+    WorkingArc fine;
+    for (std::size_t k = 0; k < arc.points.size(); ++k) {
+        const int pieces =
+            k == 0 ? 1
+                   : std::max(1, static_cast<int>(std::ceil(
+                                     (arc.points[k] - arc.points[k - 1]).norm() / spacing - 1e-9)));
+        for (int i = 1; i <= pieces; ++i) {
+            const double t = static_cast<double>(i) / pieces;
+            const std::size_t before = k == 0 ? 0 : k - 1;
+            const bool is_given = i == pieces;
+            fine.points.push_back(
+                is_given ? arc.points[k] : Vec3((1 - t) * arc.points[before] + t * arc.points[k]));
+            fine.sharpness.push_back((1 - t) * arc.sharpness[before] + t * arc.sharpness[k]);
+            fine.crease.push_back((1 - t) * arc.crease[before] + t * arc.crease[k]);
+            if (k > 0) fine.origins.push_back(arc.origins[before]);
+        }
+    }
+    arc.points = std::move(fine.points);
+    arc.sharpness = std::move(fine.sharpness);
+    arc.crease = std::move(fine.crease);
+    arc.origins = std::move(fine.origins);
+}
+
 void WorkingNetwork::rotate_closed(int index, int start) {
     if (start == 0) return;
     WorkingArc& arc = arcs[index];
@@ -119,6 +144,10 @@ NetworkGraph make_graph(const WorkingNetwork& network) {
     }
     graph.connect();
     return result;
+}
+
+double sample_spacing(const ScaleInterval& scale) {
+    return std::min(scale.rmin / 50, (scale.rmax - scale.rmin) / 4);
 }
 
 namespace {

@@ -45,13 +45,15 @@ struct WorkingNetwork {
     std::vector<std::vector<std::pair<int, int>>> stars() const;
     /// Joins arcs through every node of two arc ends when both are pinned or both are not. A joined
     /// arc keeps its chain unless `must_resample(node)` or a part is short, unsampled, or both have
-    /// a long segment. Arcs in `is_fixed` nodes are left alone. Returns the number of joins.
+    /// a long segment. Returns the number of joins.
     template <class Predicate>
     int merge_regular_nodes(Predicate must_resample);
 
     int join(int node, int first_arc, int first_end, int second_arc, int second_end,
              bool must_resample);
     void reverse(int arc);
+    /// Splits intervals longer than `spacing` (dragging stretches them); pieces inherit the origin.
+    void refine(int arc, double spacing);
     /// Moves the closed arc's first sample (and its node) to `start`.
     void rotate_closed(int arc, int start);
 };
@@ -70,6 +72,9 @@ struct NetworkGraph {
     std::vector<SegmentSource> sources;
 };
 NetworkGraph make_graph(const WorkingNetwork& network);
+
+/// Spacing of dense samples: rmin / 50, finer where S is so narrow that chords would miss it.
+double sample_spacing(const ScaleInterval& scale);
 
 /// Dense samples at most `spacing` apart: the original corners (thinned where they are denser than
 /// a quarter of it and nearly straight) and points between them.
