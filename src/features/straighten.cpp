@@ -4,7 +4,7 @@
 //     min  sum |x_i - x0_i|^2 + lambda sum |x_{i-1} - 2 x_i + x_{i+1}|^2,
 // whose response 1 / (1 + lambda (2 - 2 cos w)^2) removes what oscillates within ten samples and
 // keeps what does not: unlike Laplacian steps it does not shrink curves. Closed runs get a smaller
-// lambda, so that their first harmonic, the loop itself, keeps 90% of its size. Then each sample is
+// lambda, so that their first harmonic, the loop itself, keeps 95% of its size. Then each sample is
 // held within an edge length of its vertex, and within a share of the distance to any other arc so
 // that arcs do not meet, and is projected to the faces around its vertex, not to the closest face
 // of all, which may lie on the other side of a thin wall.
@@ -23,7 +23,7 @@
 namespace fcn {
 namespace {
 
-constexpr double kLoopResponse = 0.9;  // of the first harmonic of a closed run
+constexpr double kLoopResponse = 0.95;  // of the first harmonic of a closed run
 constexpr double kLoopTurn = 0.5;      // chord over length below which an open run is a loop
 constexpr int kNodeReach = 3;          // samples from a shared node where arcs may be close
 
