@@ -43,10 +43,7 @@ class Coarsener {
 public:
     Coarsener(const MarkedMesh& input, const CoarseningOptions& options)
         : work_(input), mesh_(work_.mesh), options_(options) {
-        mesh_.request_vertex_status();
-        mesh_.request_edge_status();
-        mesh_.request_halfedge_status();
-        mesh_.request_face_status();
+        request_status(mesh_);
         fix_corners();
     }
 
@@ -64,7 +61,7 @@ public:
             flip_bad_edges();
         }
         split_long_marked_edges();
-        return compact();
+        return compacted(work_);
     }
 
 private:
@@ -304,37 +301,6 @@ private:
             }
         }
         return rest;
-    }
-
-    /// The living part, renumbered in order.
-    MarkedMesh compact() const {
-        MarkedMesh result;
-        std::vector<int> renumbered(mesh_.n_vertices(), -1);
-        for (const VertexHandle vertex : mesh_.vertices()) {
-            renumbered[static_cast<std::size_t>(vertex.idx())] =
-                result.mesh.add_vertex(mesh_.point(vertex)).idx();
-            result.is_fixed_vertex.push_back(is_fixed(vertex));
-        }
-        const auto vertex_of = [&](VertexHandle old) {
-            return VertexHandle(renumbered[static_cast<std::size_t>(old.idx())]);
-        };
-        for (const FaceHandle face : mesh_.faces()) {
-            const auto v = face_vertices(mesh_, face);
-            result.mesh.add_face(vertex_of(v[0]), vertex_of(v[1]), vertex_of(v[2]));
-            result.face_label.push_back(work_.face_label[static_cast<std::size_t>(face.idx())]);
-        }
-        result.edge_role.assign(result.mesh.n_edges(), EdgeRole::Free);
-        for (const EdgeHandle edge : mesh_.edges()) {
-            const HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
-            const HalfedgeHandle there = result.mesh.find_halfedge(
-                vertex_of(mesh_.from_vertex_handle(h)), vertex_of(mesh_.to_vertex_handle(h)));
-            const auto i = static_cast<std::size_t>(result.mesh.edge_handle(there).idx());
-            result.edge_role[i] = work_.edge_role[static_cast<std::size_t>(edge.idx())];
-        }
-        for (const int vertex : work_.station_vertex)
-            result.station_vertex.push_back(
-                vertex < 0 ? -1 : renumbered[static_cast<std::size_t>(vertex)]);
-        return result;
     }
 
     MarkedMesh work_;

@@ -118,38 +118,65 @@ void run_cgal(Subject& subject, const SurfaceQueries& reference, const Isotropic
                                  .projection_functor(projector));
 }
 
-void collect(const Subject& subject, const MarkedMesh& marked, IsotropicResult& result) {
+/// The handles of the two meshes correspond by `number`: CGAL's vertex to ours, -1 if gone.
+void mark_edges(const Subject& subject, const std::vector<int>& number, IsotropicResult& result) {
+    MarkedMesh& marked = result.mesh;
+    marked.edge_role.assign(marked.mesh.n_edges(), EdgeRole::Free);
+    const auto role = [&](Vertex a, Vertex b) -> EdgeRole& {
+        const auto h =
+            marked.mesh.find_halfedge(VertexHandle(number[a.idx()]), VertexHandle(number[b.idx()]));
+        return marked.edge_role[static_cast<std::size_t>(marked.mesh.edge_handle(h).idx())];
+    };
     const SurfaceMesh& mesh = subject.mesh;
-    std::vector<int> number(mesh.num_vertices(), -1);
-    for (const Vertex vertex : mesh.vertices()) {
-        if (mesh.is_isolated(vertex)) continue;
-        number[vertex.idx()] = static_cast<int>(result.points.size());
-        result.points.push_back(to_vec(mesh.point(vertex)));
-        if (!result.points.back().allFinite()) return;
-    }
-    for (const Face face : mesh.faces()) {
-        std::array<int, 3> triangle{};
-        std::size_t corner = 0;
-        for (const Vertex vertex : mesh.vertices_around_face(mesh.halfedge(face)))
-            if (corner < 3) triangle[corner++] = number[vertex.idx()];
-        result.triangles.push_back(triangle);
-        result.face_labels.push_back(subject.label[face]);
-    }
+    for (const Edge edge : mesh.edges())
+        if (subject.is_constrained[edge])
+            role(mesh.vertex(edge, 0), mesh.vertex(edge, 1)) = EdgeRole::Border;
     for (const auto& [a, b] : subject.features) {
         const bool is_alive = !mesh.is_removed(a) && !mesh.is_removed(b) &&
                               mesh.halfedge(a, b) != SurfaceMesh::null_halfedge();
         if (is_alive)
-            result.feature_edges.push_back({number[a.idx()], number[b.idx()]});
+            role(a, b) = EdgeRole::Feature;
         else
             ++result.lost_features;
     }
-    for (const int vertex : marked.station_vertex) {
+}
+
+void collect(const Subject& subject, const MarkedMesh& before, IsotropicResult& result) {
+    const SurfaceMesh& mesh = subject.mesh;
+    MarkedMesh& after = result.mesh;
+    std::vector<int> number(mesh.num_vertices(), -1);
+    for (const Vertex vertex : mesh.vertices()) {
+        if (mesh.is_isolated(vertex)) continue;
+        const Vec3 point = to_vec(mesh.point(vertex));
+        if (!point.allFinite()) {
+            result.failure = "a vertex is not finite";
+            return;
+        }
+        number[vertex.idx()] = after.mesh.add_vertex(point).idx();
+        after.is_fixed_vertex.push_back(subject.is_fixed[vertex]);
+    }
+    for (const Face face : mesh.faces()) {
+        std::array<VertexHandle, 3> corner;
+        std::size_t count = 0;
+        for (const Vertex vertex : mesh.vertices_around_face(mesh.halfedge(face)))
+            if (count < 3) corner[count++] = VertexHandle(number[vertex.idx()]);
+        if (!after.mesh.add_face(corner[0], corner[1], corner[2]).is_valid()) {
+            result.failure = "its result is not manifold";
+            return;
+        }
+        after.face_label.push_back(subject.label[face]);
+    }
+    if (after.mesh.n_faces() == 0) {
+        result.failure = "nothing was left";
+        return;
+    }
+    mark_edges(subject, number, result);
+    for (const int vertex : before.station_vertex) {
         const Vertex v(static_cast<SurfaceMesh::size_type>(std::max(0, vertex)));
         const bool is_alive = vertex >= 0 && !mesh.is_removed(v);
-        result.station_vertex.push_back(is_alive ? number[v.idx()] : -1);
+        after.station_vertex.push_back(is_alive ? number[v.idx()] : -1);
     }
-    result.has_succeeded = !result.triangles.empty();
-    if (!result.has_succeeded) result.failure = "nothing was left";
+    result.has_succeeded = true;
 }
 
 }  // namespace
@@ -160,7 +187,6 @@ IsotropicResult remesh_isotropic(const MarkedMesh& marked, const SurfaceQueries&
     try {
         Subject subject = make_subject(marked);
         run_cgal(subject, reference, options);
-        result.failure = "a vertex is not finite";
         collect(subject, marked, result);
     } catch (const CGAL::Failure_exception& failure) {
         result = {};

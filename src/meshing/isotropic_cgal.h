@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <string>
-#include <vector>
 
 #include "geometry/surface_queries.h"
-#include "meshing/coarsening.h"
+#include "meshing/marked_mesh.h"
 
 namespace fcn {
 
@@ -18,12 +16,8 @@ struct IsotropicOptions {
 
 struct IsotropicResult {
     bool has_succeeded = false;
-    std::string failure;  ///< what CGAL said
-    std::vector<Vec3> points;
-    std::vector<std::array<int, 3>> triangles;
-    std::vector<int> face_labels;
-    std::vector<std::array<int, 2>> feature_edges;
-    std::vector<int> station_vertex;
+    std::string failure;            ///< what CGAL said
+    MarkedMesh mesh;                ///< marks and labels carried over
     std::size_t lost_features = 0;  ///< feature edges that the remesher did not respect
 };
 

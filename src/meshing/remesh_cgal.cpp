@@ -1,23 +1,25 @@
-// Remeshing with a network: embed, coarsen, remesh.
+// Remeshing with a network: embed, coarsen, remesh, polish.
 //
 // CGAL's remesher keeps protected edges as they are, so the network must arrive as edges of the
 // right length. (1) Every segment is laid along its dense samples into the mesh (embedding.h): the
 // samples lie on the surface, its chord does not, and only the samples say on which side of it the
 // surface's features run. (2) The chain of small edges between the two nodes is collapsed to one
-// (coarsening.h). (3) CGAL remeshes everything else (isotropic_cgal.h). A segment whose chain does
+// (coarsening.h). (3) CGAL remeshes everything else (isotropic_cgal.h). (4) The few bad triangles
+// that remain beside protected edges are improved one by one (polish.h). Plain remeshing, without
+// protection, is CGAL's alone: it is the baseline. A segment whose chain does
 // not collapse stays a chain, which is still a valid mesh, and is counted in a warning; a failure
 // of CGAL is answered by a simpler run (no projection, then the coarsened mesh as it is). Mesh
 // boundaries and borders between labels that the network leaves out are kept as curves of their
 // own.
 #include <chrono>
 #include <cmath>
-#include <set>
 
 #include "geometry/errors.h"
 #include "meshing/coarsening.h"
 #include "meshing/embedding.h"
 #include "meshing/feature_pieces.h"
 #include "meshing/isotropic_cgal.h"
+#include "meshing/polish.h"
 #include "meshing/remesh.h"
 
 namespace fcn {
@@ -128,27 +130,9 @@ MarkedMesh prepare(const LoadedMesh& input, const FeatureCurveNetwork& network,
     }
 }
 
-IsotropicResult as_it_is(const MarkedMesh& marked) {
-    IsotropicResult result;
-    result.has_succeeded = true;
-    for (const VertexHandle vertex : marked.mesh.vertices())
-        result.points.push_back(marked.mesh.point(vertex));
-    for (const FaceHandle face : marked.mesh.faces()) {
-        const auto v = face_vertices(marked.mesh, face);
-        result.triangles.push_back({v[0].idx(), v[1].idx(), v[2].idx()});
-    }
-    result.face_labels = marked.face_label;
-    for (const EdgeHandle edge : marked.mesh.edges()) {
-        if (marked.edge_role[static_cast<std::size_t>(edge.idx())] != EdgeRole::Feature) continue;
-        const HalfedgeHandle h = marked.mesh.halfedge_handle(edge, 0);
-        result.feature_edges.push_back(
-            {marked.mesh.from_vertex_handle(h).idx(), marked.mesh.to_vertex_handle(h).idx()});
-    }
-    return result;
-}
-
-IsotropicResult remesh_robustly(const MarkedMesh& marked, const SurfaceQueries& surface,
-                                const RemeshOptions& options, std::vector<std::string>& warnings) {
+/// CGAL's remesher; where it fails, without projection; where that fails, the mesh as it is.
+MarkedMesh remesh_robustly(const MarkedMesh& marked, const SurfaceQueries& surface,
+                           const RemeshOptions& options, std::vector<std::string>& warnings) {
     IsotropicOptions isotropic;
     isotropic.edge_length = options.edge_length;
     isotropic.iterations = options.iterations;
@@ -156,37 +140,54 @@ IsotropicResult remesh_robustly(const MarkedMesh& marked, const SurfaceQueries& 
     for (const bool is_projecting : {true, false}) {
         isotropic.is_projecting = is_projecting;
         IsotropicResult result = remesh_isotropic(marked, surface, isotropic);
-        if (result.has_succeeded) return result;
+        if (result.lost_features > 0)
+            warnings.push_back(std::to_string(result.lost_features) +
+                               " protected edges were not kept by the remesher");
+        if (result.has_succeeded) return std::move(result.mesh);
         warnings.push_back(std::string("CGAL's remesher failed") +
                            (is_projecting ? "" : " without projection too") + ": " +
                            result.failure);
     }
     warnings.push_back("the mesh is coarsened only");
-    return as_it_is(marked);
+    return marked;
 }
 
-LoadedMesh make_output(const LoadedMesh& input, const IsotropicResult& remeshed) {
+LoadedMesh make_output(const LoadedMesh& input, const MarkedMesh& remeshed) {
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
+    for (const VertexHandle vertex : remeshed.mesh.vertices())
+        points.push_back(remeshed.mesh.point(vertex));
+    for (const FaceHandle face : remeshed.mesh.faces()) {
+        const auto v = face_vertices(remeshed.mesh, face);
+        triangles.push_back({v[0].idx(), v[1].idx(), v[2].idx()});
+    }
+    const std::vector<int> labels =
+        input.face_labels.empty() ? std::vector<int>{} : remeshed.face_label;
     // The soup is an oriented manifold already; the reader's path also computes the hash.
-    LoadedMesh output =
-        mesh_from_soup(remeshed.points, remeshed.triangles,
-                       input.face_labels.empty() ? std::vector<int>{} : remeshed.face_labels);
-    const bool is_same = output.repairs.is_clean() &&
-                         output.mesh.n_vertices() == remeshed.points.size() &&
-                         output.mesh.n_faces() == remeshed.triangles.size();
-    if (!is_same) {
+    LoadedMesh output = mesh_from_soup(points, triangles, labels);
+    const bool is_same = output.repairs.is_clean() && output.mesh.n_vertices() == points.size() &&
+                         output.mesh.n_faces() == triangles.size();
+    if (!is_same) {  // e.g. two vertices at one place: keep them apart
         output = {};
-        for (const Vec3& point : remeshed.points) output.mesh.add_vertex(point);
-        for (const auto& t : remeshed.triangles)
-            output.mesh.add_face(VertexHandle(t[0]), VertexHandle(t[1]), VertexHandle(t[2]));
-        if (!input.face_labels.empty()) output.face_labels = remeshed.face_labels;
-        if (output.mesh.n_faces() != remeshed.triangles.size())
-            throw LogicError("remesh: the result is not manifold");
+        output.mesh = remeshed.mesh;
+        output.face_labels = labels;
     }
     output.repairs = {};
     output.label_names = input.label_names;
     output.name = input.name;
     output.units = input.units;
     return output;
+}
+
+std::vector<std::array<int, 2>> feature_edges(const MarkedMesh& marked) {
+    std::vector<std::array<int, 2>> edges;
+    for (const EdgeHandle edge : marked.mesh.edges()) {
+        if (marked.edge_role[static_cast<std::size_t>(edge.idx())] != EdgeRole::Feature) continue;
+        const HalfedgeHandle h = marked.mesh.halfedge_handle(edge, 0);
+        edges.push_back(
+            {marked.mesh.from_vertex_handle(h).idx(), marked.mesh.to_vertex_handle(h).idx()});
+    }
+    return edges;
 }
 
 void check_input(const LoadedMesh& mesh, const RemeshOptions& options) {
@@ -219,12 +220,14 @@ RemeshResult remesh_with_cgal(const LoadedMesh& mesh, const FeatureCurveNetwork&
     const MarkedMesh marked = options.is_protecting
                                   ? prepare(mesh, network, options, surface, result.warnings)
                                   : unmarked(mesh);
-    const IsotropicResult remeshed = remesh_robustly(marked, surface, options, result.warnings);
-    if (remeshed.lost_features > 0)
-        result.warnings.push_back(std::to_string(remeshed.lost_features) +
-                                  " protected edges were not kept by the remesher");
+    MarkedMesh remeshed = remesh_robustly(marked, surface, options, result.warnings);
+    if (options.is_protecting) {
+        PolishOptions polishing;
+        polishing.edge_length = options.edge_length;
+        remeshed = polish(remeshed, surface, polishing);
+    }
     result.mesh = make_output(mesh, remeshed);
-    result.feature_edges = remeshed.feature_edges;
+    result.feature_edges = feature_edges(remeshed);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
