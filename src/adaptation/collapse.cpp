@@ -5,6 +5,7 @@
 #include "adaptation/collapse.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -70,8 +71,10 @@ private:
 
     void move(int from, int to) {
         for (const auto& [arc, end] : stars_[from]) {
+            const std::vector<Vec3> before = network_.arcs[arc].points;
             drag(network_.arcs[arc], end, network_.nodes[to].position);
             network_.refine(arc, spacing_);
+            project(network_.arcs[arc], before);
             network_.arcs[arc].nodes[end] = to;
             stars_[to].emplace_back(arc, end);
         }
@@ -94,13 +97,23 @@ private:
             if (along >= reach) break;
             const double x = along / reach;
             const double falloff = (1 - x) * (1 - x) * (1 + 2 * x);
-            arc.points[at(k)] = queries_.closest(original + falloff * displacement).position;
+            arc.points[at(k)] = original + falloff * displacement;
         }
         arc.points[at(0)] = target;
         arc.chain.clear();
         arc.orbit_classes.clear();
         arc.long_segment = -1;
         arc.is_short = false;
+    }
+
+    /// Brings every point that dragging moved or made back to the surface.
+    void project(WorkingArc& arc, const std::vector<Vec3>& before) {
+        std::set<std::array<double, 3>> untouched;
+        for (const Vec3& p : before) untouched.insert({p.x(), p.y(), p.z()});
+        for (std::size_t k = 1; k + 1 < arc.points.size(); ++k) {
+            Vec3& p = arc.points[k];
+            if (!untouched.contains({p.x(), p.y(), p.z()})) p = queries_.closest(p).position;
+        }
     }
 
     WorkingNetwork& network_;
