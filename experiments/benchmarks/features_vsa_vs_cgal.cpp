@@ -57,8 +57,8 @@ fcn::Mesh subdivided(const fcn::Mesh& mesh) {
     for (const auto vertex : mesh.vertices()) result.add_vertex(mesh.point(vertex));
     for (const auto edge : mesh.edges()) {
         const auto h = mesh.halfedge_handle(edge, 0);
-        result.add_vertex(0.5 * (mesh.point(mesh.from_vertex_handle(h)) +
-                                 mesh.point(mesh.to_vertex_handle(h))));
+        result.add_vertex(
+            0.5 * (mesh.point(mesh.from_vertex_handle(h)) + mesh.point(mesh.to_vertex_handle(h))));
     }
     for (const auto face : mesh.faces()) {
         fcn::VertexHandle corner[3], middle[3];
@@ -152,8 +152,9 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        std::printf("| mesh | faces | patches | ours s | ours error | CGAL s | CGAL error | "
-                    "time ratio | error ratio |\n|---|---|---|---|---|---|---|---|---|\n");
+        std::printf(
+            "| mesh | faces | patches | ours s | ours error | CGAL s | CGAL error | "
+            "time ratio | error ratio |\n|---|---|---|---|---|---|---|---|---|\n");
         for (int i = 1; i < argc; ++i) {
             const Case job = parse_case(argv[i]);
             fcn::LoadedMesh loaded = fcn::read_mesh(job.path);

@@ -9,13 +9,12 @@
 // the surroundings are noisy. Noisy is a place whose faces disagree with all their neighbours, and
 // clearly with all but one and with the neighbours' mean normal: on a clean surface, beside creases
 // and on coarsely meshed fillets as well, at least one of the three is small. Medians over some
-// thirty faces decide.
-// There the edge counts only as far as the area-weighted mean normals of the areas left and right
-// of it (radius 2.5 edges) enclose the angle, too: an integral of normals over an area depends on
-// the area's border alone, so noise of single vertices fades fast, while a crease keeps its angle.
-// Tiny holes and ribs look like noise to that test; what tells them apart is that their creases
-// are regular: seven edges in a row that turn little and have the same dihedral within 15%.
-// Clean places and regular creases keep the plain dihedral.
+// thirty faces decide. There the edge counts only as far as the area-weighted mean normals of the
+// areas left and right of it (radius 2.5 edges) enclose the angle, too: an integral of normals over
+// an area depends on the area's border alone, so noise of single vertices fades fast, while a
+// crease keeps its angle. Tiny holes and ribs look like noise to that test; what tells them apart
+// is that their creases are regular: seven edges in a row that turn little and have the same
+// dihedral within 15%. Clean places and regular creases keep the plain dihedral.
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -38,7 +37,7 @@ constexpr double kLeastNoise = 1.5 * std::numbers::pi / 180;
 constexpr int kNoiseFaceCount = 32;        // faces in that median
 constexpr double kWideRadius = 2.5;        // of the wide dihedral, in edges
 constexpr double kContinuingCosine = 0.5;  // a chain turns by up to 60 degrees
-constexpr int kRegularEdges = 7;
+constexpr int kRegularEdges = 9;
 constexpr double kRegularDifference = 0.15;  // relative
 constexpr int kIsolationFaceCount = 14;      // faces searched for parallel edges
 constexpr double kIsolatedShare = 0.5;       // of the angle; more is comparable
@@ -149,7 +148,8 @@ int regular_edge_count(const MeshArrays& arrays, const IndexRows& at_vertex, int
                 best = *e;
                 best_difference = difference;
             }
-            if (best < 0 || best == edge) break;
+            if (best == edge) return kRegularEdges;  // once around
+            if (best < 0) break;
             const auto [from, to] = arrays.edge_vertices[best];
             vertex = from == vertex ? to : from;
             current = best;
@@ -171,29 +171,6 @@ double robust_dihedral(const MeshArrays& arrays, const IndexRows& at_vertex, int
 
 bool has_sign(double angle, SharpSign sign) {
     return sign == SharpSign::Both || (sign == SharpSign::Convex) == (angle > 0);
-}
-
-/// Is there no comparable edge beside this one, running along it?
-bool is_isolated(const MeshArrays& arrays, const std::vector<double>& angles, int edge) {
-    const auto [from, to] = arrays.edge_vertices[edge];
-    const Vec3 middle = 0.5 * (arrays.points[from] + arrays.points[to]);
-    const double length = arrays.edge_length(edge);
-    const Vec3 along = (arrays.points[to] - arrays.points[from]) / length;
-    for (int side : arrays.edge_faces[edge]) {
-        for (int f : grow(arrays, side, kIsolationFaceCount, [](int) { return true; })) {
-            for (int e : arrays.face_edges[f]) {
-                if (std::abs(angles[e]) < kIsolatedShare * std::abs(angles[edge])) continue;
-                const Vec3& a = arrays.points[arrays.edge_vertices[e][0]];
-                const Vec3& b = arrays.points[arrays.edge_vertices[e][1]];
-                const Vec3 offset = 0.5 * (a + b) - middle;
-                const double lateral = (offset - offset.dot(along) * along).norm();
-                const bool is_parallel =
-                    std::abs((b - a).normalized().dot(along)) > kParallelCosine;
-                if (is_parallel && lateral > 0.3 * length) return false;
-            }
-        }
-    }
-    return true;
 }
 
 /// Seeds and what continues them.
@@ -275,6 +252,28 @@ void drop_short_chains(const MeshArrays& arrays, const std::vector<double>& angl
 }
 
 }  // namespace
+
+bool is_isolated(const MeshArrays& arrays, const std::vector<double>& angles, int edge) {
+    const auto [from, to] = arrays.edge_vertices[edge];
+    const Vec3 middle = 0.5 * (arrays.points[from] + arrays.points[to]);
+    const double length = arrays.edge_length(edge);
+    const Vec3 along = (arrays.points[to] - arrays.points[from]) / length;
+    for (int side : arrays.edge_faces[edge]) {
+        for (int f : grow(arrays, side, kIsolationFaceCount, [](int) { return true; })) {
+            for (int e : arrays.face_edges[f]) {
+                if (std::abs(angles[e]) < kIsolatedShare * std::abs(angles[edge])) continue;
+                const Vec3& a = arrays.points[arrays.edge_vertices[e][0]];
+                const Vec3& b = arrays.points[arrays.edge_vertices[e][1]];
+                const Vec3 offset = 0.5 * (a + b) - middle;
+                const double lateral = (offset - offset.dot(along) * along).norm();
+                const bool is_parallel =
+                    std::abs((b - a).normalized().dot(along)) > kParallelCosine;
+                if (is_parallel && lateral > 0.3 * length) return false;
+            }
+        }
+    }
+    return true;
+}
 
 std::vector<double> robust_dihedrals(const MeshArrays& arrays, double low_angle, int threads) {
     std::vector<double> angles(arrays.edge_count());

@@ -14,9 +14,13 @@ namespace fcn {
 /// Deterministic on any number of threads.
 std::vector<double> robust_dihedrals(const MeshArrays& arrays, double low_angle, int threads = 1);
 
-/// Hysteresis on `angles`: connected chains of edges above the low angle that contain one above
-/// the high angle, convex and concave ones apart, not shorter than options.min_length and
-/// `min_edge_count`.
+/// Is there no edge of comparable angle beside this one that runs along it? True of a crease, not
+/// of the facets of a coarsely meshed curved surface.
+bool is_isolated(const MeshArrays& arrays, const std::vector<double>& angles, int edge);
+
+/// Hysteresis on `angles`: edges above the high angle and chains of edges above the low one that
+/// continue them, convex and concave ones apart, not shorter than options.min_length and
+/// `min_edge_count`, without crumbs of a few edges that end inside the surface.
 std::vector<bool> sharp_edges(const MeshArrays& arrays, const std::vector<double>& angles,
                               const SharpOptions& options, int min_edge_count = 1);
 

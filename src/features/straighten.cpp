@@ -24,8 +24,8 @@ namespace fcn {
 namespace {
 
 constexpr double kLoopResponse = 0.95;  // of the first harmonic of a closed run
-constexpr double kLoopTurn = 0.5;      // chord over length below which an open run is a loop
-constexpr int kNodeReach = 3;          // samples from a shared node where arcs may be close
+constexpr double kLoopTurn = 0.5;       // chord over length below which an open run is a loop
+constexpr int kNodeReach = 3;           // samples from a shared node where arcs may be close
 
 struct Use {
     int arc;

@@ -1,12 +1,14 @@
-// From patches to feature curves. The borders of variational shape approximation are moved onto
-// creases (border_cut.cpp) and traced; sharp creases that no border takes, because both sides fit
-// the same proxy or the crease ends inside a patch, become arcs of their own, whose two patches are
-// the same: an isolated sharp crease is never missing from the network. Then the arcs are smoothed
-// where they do not run along creases (straighten.cpp).
+// From patches to feature curves. Sharp creases are arcs of the network in any case, also where no
+// patch border takes them because both sides fit the same proxy or the crease ends inside a patch:
+// an isolated sharp crease is never missing. So patches that spill over a crease are ended there
+// (crease_patches.cpp), the other borders are moved onto weaker creases (border_cut.cpp), all are
+// traced, and the arcs are smoothed where they do not run along creases (straighten.cpp).
 
+#include <algorithm>
 #include <cmath>
 
 #include "features/border_cut.h"
+#include "features/crease_patches.h"
 #include "features/edge_chains.h"
 #include "features/sharp_edges.h"
 #include "features/straighten.h"
@@ -18,6 +20,7 @@ namespace {
 constexpr double kDegree = 0.017453292519943295;
 constexpr double kBorderCreaseHigh = 30 * kDegree;  // creases that attract and hold borders
 constexpr double kBorderCreaseLow = 24 * kDegree;
+constexpr double kFacetHigh = 40 * kDegree;  // a crease even where the like run beside it
 constexpr int kBorderCreaseEdges = 3;
 constexpr double kOwnCreaseLow = 28 * kDegree;  // how far a crease of its own continues
 constexpr int kOwnCreaseEdges = 5;
@@ -29,6 +32,18 @@ std::vector<bool> patch_borders(const MeshArrays& arrays, const std::vector<int>
         is_border[e] = f >= 0 && g >= 0 && patch_of_face[f] != patch_of_face[g];
     }
     return is_border;
+}
+
+/// Angles without those of facets: of edges that are not sharp and have the like beside them.
+std::vector<double> crease_angles(const MeshArrays& arrays, std::vector<double> angles) {
+    std::vector<int> facets;
+    for (int e = 0; e < arrays.edge_count(); ++e) {
+        const double angle = std::abs(angles[e]);
+        if (angle < kBorderCreaseLow || angle >= kFacetHigh) continue;
+        if (!is_isolated(arrays, angles, e)) facets.push_back(e);
+    }
+    for (int e : facets) angles[e] = 0;
+    return angles;
 }
 
 std::vector<bool> border_creases(const MeshArrays& arrays, const std::vector<double>& angles,
@@ -44,30 +59,38 @@ std::vector<bool> border_creases(const MeshArrays& arrays, const std::vector<dou
     return is_crease;
 }
 
+std::vector<bool> own_creases(const MeshArrays& arrays, const std::vector<double>& angles,
+                              double crease_angle) {
+    if (!(crease_angle > 0)) return std::vector<bool>(arrays.edge_count(), false);
+    SharpOptions options;
+    options.high_angle = crease_angle;
+    options.low_angle = std::min(crease_angle, kOwnCreaseLow);
+    return sharp_edges(arrays, angles, options, kOwnCreaseEdges);
+}
+
 }  // namespace
 
 FeatureCurveNetwork detect_vsa(const LoadedMesh& mesh, const VsaOptions& options) {
     const MeshArrays arrays = mesh_arrays(mesh.mesh, options.threads);
-    const VsaResult patches = segment_vsa(arrays, options);
+    VsaResult patches = segment_vsa(arrays, options);
     const std::vector<double> angles = robust_dihedrals(arrays, kBorderCreaseLow, options.threads);
-    std::vector<int> patch_of_face = patches.patch_of_face;
+    const std::vector<double> sharp = crease_angles(arrays, angles);
+    const std::vector<bool> is_own = own_creases(arrays, angles, options.crease_angle);
+    end_patches_at_creases(arrays, is_own, patches);
     if (options.is_straightening) {
-        patch_of_face =
-            move_borders(arrays, angles, mesh.face_labels, patch_of_face, patches.proxy_normals);
+        patches.patch_of_face = move_borders(arrays, sharp, mesh.face_labels, patches.patch_of_face,
+                                             patches.proxy_normals);
     }
-    std::vector<bool> is_marked = patch_borders(arrays, patch_of_face);
-    if (options.crease_angle > 0) {
-        SharpOptions creases;
-        creases.high_angle = options.crease_angle;
-        creases.low_angle = std::min(options.crease_angle, kOwnCreaseLow);
-        const std::vector<bool> is_sharp = sharp_edges(arrays, angles, creases, kOwnCreaseEdges);
-        for (int e = 0; e < arrays.edge_count(); ++e) is_marked[e] = is_marked[e] || is_sharp[e];
+    std::vector<bool> is_marked = patch_borders(arrays, patches.patch_of_face);
+    for (int e = 0; e < arrays.edge_count(); ++e) is_marked[e] = is_marked[e] || is_own[e];
+    EdgeNetwork edges = trace_edges(arrays, is_marked, patches.patch_of_face, "vsa");
+    FeatureCurveNetwork network = std::move(edges.network);
+    if (options.is_straightening) {
+        std::vector<bool> is_crease = border_creases(arrays, sharp, mesh.face_labels);
+        for (int e = 0; e < arrays.edge_count(); ++e) is_crease[e] = is_crease[e] || is_own[e];
+        edges.network = std::move(network);
+        network = straighten(arrays, edges, is_crease);
     }
-    EdgeNetwork edges = trace_edges(arrays, is_marked, patch_of_face, "vsa");
-    FeatureCurveNetwork network =
-        options.is_straightening
-            ? straighten(arrays, edges, border_creases(arrays, angles, mesh.face_labels))
-            : std::move(edges.network);
     set_provenance(network, mesh);
     return network;
 }
