@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+"""Makes the pictures of the README: runs scalefcn on one mesh and takes them out of its report.
+
+Usage: scripts/make_pictures.py [PROGRAM [MESH]]
+"""
+
+import base64
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+PICTURE = re.compile(r'<img src="data:image/png;base64,([A-Za-z0-9+/=]+)" alt="([^"]*)"')
+
+
+def pictures_of(program, mesh, *options):
+    """PNG bytes and descriptions of the pictures in the report of one run."""
+    with tempfile.TemporaryDirectory() as scratch:
+        subprocess.run([program, "run", mesh, "-o", scratch, "--solvers", "none", "--quiet",
+                        *options], check=True, stdout=subprocess.DEVNULL)
+        report = (pathlib.Path(scratch) / "report.html").read_text(encoding="utf-8")
+    return [(base64.b64decode(png), text) for png, text in PICTURE.findall(report)]
+
+
+def main():
+    program = sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release/bin/scalefcn"
+    mesh = sys.argv[2] if len(sys.argv) > 2 else ROOT / "build/meshes/fandisk.off"
+    pictures = pictures_of(program, mesh, "--method", "vsa", "--patches", "150", "--scales", "5%")
+    names = ["initial", "dropped", "adapted", "remesh"]
+    if len(pictures) != len(names):
+        sys.exit(f"expected {len(names)} pictures in the report, found {len(pictures)}")
+    folder = ROOT / "docs/images"
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, (png, text) in zip(names, pictures):
+        path = folder / f"fandisk_{name}.png"
+        path.write_bytes(png)
+        print(f"{path.relative_to(ROOT)}: {text}")
+
+
+if __name__ == "__main__":
+    main()
