@@ -5,9 +5,10 @@
 // whose response 1 / (1 + lambda (2 - 2 cos w)^2) removes what oscillates within ten samples and
 // keeps what does not: unlike Laplacian steps it does not shrink curves. Closed runs get a smaller
 // lambda, so that their first harmonic, the loop itself, keeps 95% of its size. Then each sample is
-// held within an edge length of its vertex, and within a share of the distance to any other arc so
-// that arcs do not meet, and is projected to the faces around its vertex, not to the closest face
-// of all, which may lie on the other side of a thin wall.
+// held within about an edge length of its vertex (softly first, by its weight), comes nearer to any
+// other arc by a share of the distance only, so that arcs do not meet, and is projected to the
+// faces around its vertex, not to the closest face of all, which may lie on the other side of a
+// thin wall.
 
 #include "features/straighten.h"
 
@@ -25,7 +26,9 @@ namespace {
 
 constexpr double kLoopResponse = 0.95;  // of the first harmonic of a closed run
 constexpr double kLoopTurn = 0.5;       // chord over length below which an open run is a loop
-constexpr int kNodeReach = 3;           // samples from a shared node where arcs may be close
+constexpr int kPullRounds = 6;
+constexpr double kPullFactor = 4;  // of a sample's weight against shifts, per round
+constexpr int kNodeReach = 3;      // samples from a shared node where arcs may be close
 
 struct Use {
     int arc;
@@ -133,7 +136,7 @@ private:
         const int size = static_cast<int>(run.size());
         Eigen::MatrixX3d start(size, 3);
         for (int i = 0; i < size; ++i) start.row(i) = arc.samples[run[i]].position.transpose();
-        const Eigen::MatrixX3d smooth = spline(start, is_cyclic);
+        const Eigen::MatrixX3d smooth = held_spline(a, run, start, is_cyclic);
         for (int i = 0; i < size; ++i) {
             if (!is_cyclic && (i == 0 || i == size - 1)) continue;
             arc.samples[run[i]] = placed(a, run[i], smooth.row(i).transpose());
@@ -150,13 +153,37 @@ private:
         return std::min(options_.smoothing, (1 / kLoopResponse - 1) / (harmonic * harmonic));
     }
 
-    Eigen::MatrixX3d spline(const Eigen::MatrixX3d& start, bool is_cyclic) const {
+    /// The spline, with samples that would leave their place too far drawn back more strongly.
+    Eigen::MatrixX3d held_spline(int a, const std::vector<int>& run, const Eigen::MatrixX3d& start,
+                                 bool is_cyclic) const {
+        std::vector<double> pull(run.size(), 1);
+        Eigen::MatrixX3d smooth = spline(start, pull, is_cyclic);
+        for (int round = 0; round < kPullRounds; ++round) {
+            bool is_within = true;
+            for (std::size_t i = 0; i < run.size(); ++i) {
+                const auto row = static_cast<Eigen::Index>(i);
+                const double shift = (smooth.row(row) - start.row(row)).norm();
+                if (shift <= shift_limit(edges_.arc_vertices[a][run[i]])) continue;
+                pull[i] *= kPullFactor;
+                is_within = false;
+            }
+            if (is_within) break;
+            smooth = spline(start, pull, is_cyclic);
+        }
+        return smooth;
+    }
+
+    Eigen::MatrixX3d spline(const Eigen::MatrixX3d& start, const std::vector<double>& pull,
+                            bool is_cyclic) const {
         const auto size = static_cast<int>(start.rows());
         const double weight = smoothing_weight(start, is_cyclic);
         std::vector<Eigen::Triplet<double>> entries;
         const auto is_held = [&](int i) { return !is_cyclic && (i == 0 || i == size - 1); };
         Eigen::MatrixX3d right = start;
-        for (int i = 0; i < size; ++i) entries.emplace_back(i, i, 1.0);
+        for (int i = 0; i < size; ++i) {
+            entries.emplace_back(i, i, pull[i]);
+            right.row(i) *= pull[i];
+        }
         for (int center = 0; center < size; ++center) {
             if (is_held(center)) continue;
             const int index[3] = {(center + size - 1) % size, center, (center + 1) % size};
@@ -212,12 +239,20 @@ private:
         return end == 0 ? use.sample : last - use.sample;
     }
 
-    double max_shift(int a, int sample, int vertex, const std::vector<int>& around) const {
+    double shift_limit(int vertex) const {
         double length = 0;
         for (const int* f = faces_.begin(vertex); f != faces_.end(vertex); ++f) {
             for (int e : arrays_.face_edges[*f]) length += arrays_.edge_length(e);
         }
-        double shift = options_.max_shift * length / (3.0 * faces_.size(vertex));
+        return options_.max_shift * length / (3.0 * faces_.size(vertex));
+    }
+
+    /// Shortens an offset to local edge lengths, and takes away what brings the sample more than
+    /// its share nearer to another arc.
+    Vec3 limited(int a, int sample, Vec3 offset, const std::vector<int>& around) const {
+        const int vertex = edges_.arc_vertices[a][sample];
+        const double limit = shift_limit(vertex);
+        if (offset.norm() > limit) offset *= limit / offset.norm();
         const Use own{a, sample};
         for (int f : around) {
             for (int v : arrays_.face_vertices[f]) {
@@ -226,22 +261,22 @@ private:
                     if (other.arc == a && std::abs(other.sample - sample) <= 2 * kNodeReach) {
                         continue;
                     }
-                    if (is_near_shared_node(own, other)) continue;
-                    const double distance = (arrays_.points[v] - arrays_.points[vertex]).norm();
-                    shift = std::min(shift, options_.max_neighbor_share * distance);
+                    if (v == vertex || is_near_shared_node(own, other)) continue;
+                    const Vec3 between = arrays_.points[v] - arrays_.points[vertex];
+                    const double excess =
+                        offset.dot(between) / between.squaredNorm() - options_.max_neighbor_share;
+                    if (excess > 0) offset -= excess * between;
                 }
             }
         }
-        return shift;
+        return offset;
     }
 
     ArcSample placed(int a, int sample, const Vec3& target) const {
         const int vertex = edges_.arc_vertices[a][sample];
         const std::vector<int> around = faces_around(vertex);
-        Vec3 offset = target - arrays_.points[vertex];
-        const double limit = max_shift(a, sample, vertex, around);
-        if (offset.norm() > limit) offset *= limit / offset.norm();
-        const Vec3 goal = arrays_.points[vertex] + offset;
+        const Vec3 goal =
+            arrays_.points[vertex] + limited(a, sample, target - arrays_.points[vertex], around);
         ArcSample best;
         double best_distance = std::numeric_limits<double>::infinity();
         for (int f : around) {

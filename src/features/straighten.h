@@ -7,8 +7,8 @@
 namespace fcn {
 
 struct StraightenOptions {
-    double smoothing = 300;  ///< weight of squared second differences against displacements
-    double max_shift = 1.0;  ///< of a sample, in local edge lengths
+    double smoothing = 300;   ///< weight of squared second differences against displacements
+    double max_shift = 1.25;  ///< of a sample, in local edge lengths
     double max_neighbor_share = 0.4;  ///< of the distance to the next arc
 };
 
