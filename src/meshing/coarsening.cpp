@@ -57,7 +57,7 @@ public:
             }
         }
         for (int round = 0; round < options_.max_rounds; ++round) {
-            if (straighten_chains() == 0) break;
+            if (straighten_chains() == 0 && unblock_chains() == 0) break;
             flip_bad_edges();
         }
         split_long_marked_edges();
@@ -220,6 +220,40 @@ private:
             }
         }
         return count;
+    }
+
+    /// A chain cannot be collapsed where an edge beside it already joins what the collapse would
+    /// join (the link condition). Splits such edges.
+    std::size_t unblock_chains() {
+        std::vector<EdgeHandle> blocking;
+        for (const EdgeHandle edge : mesh_.edges()) {
+            if (role(edge) != EdgeRole::Feature) continue;
+            for (unsigned side = 0; side < 2; ++side)
+                collect_blocking(mesh_.halfedge_handle(edge, side), blocking);
+        }
+        std::sort(blocking.begin(), blocking.end());
+        blocking.erase(std::unique(blocking.begin(), blocking.end()), blocking.end());
+        for (const EdgeHandle edge : blocking) split_in_half(edge);
+        return blocking.size();
+    }
+
+    /// Free edges from the to-vertex to neighbours of the from-vertex that are not opposite.
+    void collect_blocking(HalfedgeHandle halfedge, std::vector<EdgeHandle>& blocking) const {
+        if (!is_move_allowed(halfedge)) return;
+        const VertexHandle to = mesh_.to_vertex_handle(halfedge);
+        const auto opposite_vertex = [&](HalfedgeHandle side) {
+            return mesh_.is_boundary(side)
+                       ? VertexHandle()
+                       : VertexHandle(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(side)));
+        };
+        const VertexHandle left = opposite_vertex(halfedge);
+        const VertexHandle right = opposite_vertex(mesh_.opposite_halfedge_handle(halfedge));
+        for (const VertexHandle around : mesh_.vv_range(mesh_.from_vertex_handle(halfedge))) {
+            if (around == to || around == left || around == right) continue;
+            const HalfedgeHandle there = mesh_.find_halfedge(to, around);
+            if (there.is_valid() && !is_marked(mesh_.edge_handle(there)))
+                blocking.push_back(mesh_.edge_handle(there));
+        }
     }
 
     void flip_bad_edges() {

@@ -452,6 +452,27 @@ private:
 
 }  // namespace
 
+std::vector<int> entangled_pieces(const EmbeddedMesh& embedded, const FeaturePieces& pieces) {
+    // Who passes through each vertex; stations belong to all pieces that end there.
+    std::vector<std::vector<int>> visitors(embedded.mesh.n_vertices());
+    const auto at = [&](int vertex) -> std::vector<int>& {
+        return visitors[static_cast<std::size_t>(vertex)];
+    };
+    for (std::size_t piece = 0; piece < embedded.chains.size(); ++piece)
+        for (const int vertex : embedded.chains[piece])
+            at(vertex).push_back(static_cast<int>(piece));
+    std::set<int> entangled;
+    for (std::size_t piece = 0; piece < embedded.chains.size(); ++piece) {
+        const std::vector<int>& chain = embedded.chains[piece];
+        for (std::size_t i = 1; i + 1 < chain.size(); ++i)
+            if (at(chain[i]).size() > 1) entangled.insert(at(chain[i]).begin(), at(chain[i]).end());
+    }
+    std::erase_if(entangled, [&](int piece) {
+        return pieces.pieces[static_cast<std::size_t>(piece)].is_rigid;
+    });
+    return {entangled.begin(), entangled.end()};
+}
+
 EmbeddedMesh embed_pieces(const Mesh& mesh, const FeaturePieces& pieces,
                           const EmbeddingOptions& options) {
     return Embedder(mesh, pieces, options).run();

@@ -22,6 +22,9 @@ struct EmbeddingOptions {
     double flatness = 0;  ///< curves are followed up to this deviation inside faces, mesh units
 };
 
+/// Pieces whose chains meet away from their ends, each with every piece it meets; ascending.
+std::vector<int> entangled_pieces(const EmbeddedMesh& embedded, const FeaturePieces& pieces);
+
 /// Every station becomes a vertex exactly at its position; every piece a simple chain of edges.
 /// Throws LogicError if a face cannot be subdivided.
 EmbeddedMesh embed_pieces(const Mesh& mesh, const FeaturePieces& pieces,

@@ -88,7 +88,7 @@ private:
         int from = nodes[0];
         std::size_t next = 1;
         for (int k = 1; k <= count; ++k) {
-            FeaturePiece piece{from, -1, {}, segment};
+            FeaturePiece piece{from, -1, {}, segment, arc.kind != ArcKind::Feature};
             const double end = reached.back() * k / count;
             const double slack = 1e-9 * reached.back();
             for (; next + 1 < reached.size() && reached[next] < end - slack; ++next)

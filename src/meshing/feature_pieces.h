@@ -19,6 +19,7 @@ struct FeaturePiece {
     int from = -1, to = -1;            ///< stations
     std::vector<SurfacePoint> points;  ///< strictly between the stations
     int segment = -1;                  ///< of an adapted network; -1 for a piece of an initial arc
+    bool is_rigid = false;             ///< follows the mesh's boundary or a border of labels
 };
 
 struct FeaturePieces {

@@ -27,6 +27,7 @@ namespace {
 
 constexpr double kSnapShare = 0.03;      ///< of L: points closer than this to an edge lie on it
 constexpr double kFlatnessShare = 0.01;  ///< of L: how closely the embedding follows the samples
+constexpr int kMaxUntangling = 3;        ///< rounds of embedding
 
 int label_of(const LoadedMesh& mesh, int face) {
     return mesh.face_labels.empty() ? 0 : mesh.face_labels[static_cast<std::size_t>(face)];
@@ -98,6 +99,26 @@ std::size_t count_broken(const MarkedMesh& marked, const FeaturePieces& pieces) 
     return broken;
 }
 
+/// Embeds the pieces. Dense samples may run together before the node they both end in (the
+/// adaptation drags them there); such pieces take the straight way over the surface instead.
+EmbeddedMesh embed_apart(const LoadedMesh& input, FeaturePieces pieces, double edge_length) {
+    EmbeddingOptions options;
+    options.snap = kSnapShare * edge_length;
+    options.flatness = kFlatnessShare * edge_length;
+    EmbeddedMesh embedded = embed_pieces(input.mesh, pieces, options);
+    for (int round = 0; round < kMaxUntangling; ++round) {
+        bool is_changed = false;
+        for (const int piece : entangled_pieces(embedded, pieces)) {
+            auto& points = pieces.pieces[static_cast<std::size_t>(piece)].points;
+            is_changed = is_changed || !points.empty();
+            points.clear();
+        }
+        if (!is_changed) break;
+        embedded = embed_pieces(input.mesh, pieces, options);
+    }
+    return embedded;
+}
+
 /// Embeds and coarsens; falls back to the mesh without the network, with a warning.
 MarkedMesh prepare(const LoadedMesh& input, const FeatureCurveNetwork& network,
                    const RemeshOptions& options, const SurfaceQueries& surface,
@@ -107,10 +128,7 @@ MarkedMesh prepare(const LoadedMesh& input, const FeatureCurveNetwork& network,
     coarsening.edge_length = length;
     const FeaturePieces pieces = cut_into_pieces(network, length, surface);
     try {
-        EmbeddingOptions embedding;
-        embedding.snap = kSnapShare * length;
-        embedding.flatness = kFlatnessShare * length;
-        EmbeddedMesh embedded = embed_pieces(input.mesh, pieces, embedding);
+        EmbeddedMesh embedded = embed_apart(input, pieces, length);
         if (embedded.lost_pieces > 0)
             warnings.push_back(std::to_string(embedded.lost_pieces) +
                                " pieces of the network join parts of the mesh that are not "
