@@ -12,8 +12,8 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "features/features.h"
@@ -125,7 +125,7 @@ CgalMesh cgal_mesh(const fcn::Mesh& mesh) {
 }
 
 Outcome run_cgal(const fcn::Mesh& mesh, int patch_count) {
-    const CgalMesh surface = cgal_mesh(mesh);
+    CgalMesh surface = cgal_mesh(mesh);
     const VertexPoints points = get(boost::vertex_point, surface);
     const Approximation::Error_metric metric(surface, points);
     return timed(mesh, [&] {
@@ -134,8 +134,7 @@ Outcome run_cgal(const fcn::Mesh& mesh, int patch_count) {
                                            .max_number_of_proxies(patch_count));
         approximation.run(20);
         std::vector<int> patch_of_face(mesh.n_faces());
-        CgalMesh& writable = const_cast<CgalMesh&>(surface);
-        auto map = writable.add_property_map<CgalMesh::Face_index, std::size_t>("f:patch").first;
+        auto map = surface.add_property_map<CgalMesh::Face_index, std::size_t>("f:patch").first;
         approximation.proxy_map(map);
         for (const auto face : surface.faces()) {
             patch_of_face[face] = static_cast<int>(map[face]);
@@ -160,12 +159,9 @@ int main(int argc, char** argv) {
             fcn::LoadedMesh loaded = fcn::read_mesh(job.path);
             for (int s = 0; s < job.subdivision_count; ++s) loaded.mesh = subdivided(loaded.mesh);
             Outcome ours, cgal;
-            const std::function<void()> run_first = [&] {
-                ours = run_ours(loaded.mesh, job.patch_count);
-            };
-            if (i % 2 == 1) run_first();
+            if (i % 2 == 1) ours = run_ours(loaded.mesh, job.patch_count);
             cgal = run_cgal(loaded.mesh, job.patch_count);
-            if (i % 2 == 0) run_first();
+            if (i % 2 == 0) ours = run_ours(loaded.mesh, job.patch_count);
             std::printf("| %s | %zu | %d/%d | %.3f | %.6g | %.3f | %.6g | %.1f | %.4f |\n",
                         loaded.name.c_str(), loaded.mesh.n_faces(), ours.patch_count,
                         cgal.patch_count, ours.seconds, ours.error, cgal.seconds, cgal.error,

@@ -78,8 +78,7 @@ TEST(Vsa, BoxIsSixPlanes) {
 }
 
 TEST(Vsa, FivePlanesOfARidge) {
-    // Three roofs side by side, cut off by a floor: the object on which hierarchical seeding of
-    // other implementations merges planes.
+    // Five strips that meet in four folds.
     const LoadedMesh mesh = testing::height_field(25, 12, [](double x, double) {
         const double knots[6] = {0, 2, -1, 4, 3, 8};
         const int piece = std::min(4, static_cast<int>(x / 5));
@@ -125,8 +124,8 @@ TEST(Vsa, MorePatchesNeverFitWorse) {
 }
 
 TEST(Vsa, SphereIsNearTheTheoreticalError) {
-    // A cap of area A on the unit sphere has error A^2 / (4 pi) (1 + ...) / ... : the best that n
-    // equal patches can do is n times that of a cap; hexagonal patches come close.
+    // Of all patches of an area the cap has the least error, 2 (area - |integral of the normal|);
+    // n equal patches cannot beat n caps, and hexagonal ones come close.
     const LoadedMesh mesh = make_model("sphere");
     const double area = testing::total_area(mesh.mesh);
     const int count = 60;
