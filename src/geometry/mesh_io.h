@@ -12,7 +12,7 @@ namespace fcn {
 /// What reading had to mend, so that the result is an oriented 2-manifold.
 struct RepairReport {
     std::size_t welded_vertex_count = 0;         ///< equal positions merged
-    std::size_t degenerate_face_count = 0;       ///< repeated index or zero area, dropped
+    std::size_t degenerate_face_count = 0;       ///< without area: dropped or flipped away
     std::size_t duplicate_face_count = 0;        ///< dropped
     std::size_t unreferenced_vertex_count = 0;   ///< dropped
     std::size_t reoriented_face_count = 0;       ///< flipped to agree with their component
