@@ -23,7 +23,7 @@
 namespace fcn {
 namespace {
 
-constexpr int kMinCoarseItems = 10000;
+constexpr int kMinCoarseItems = 6000;
 constexpr int kItemsPerPatch = 60;
 constexpr std::array<double, 2> kBatchShares{0.2, 0.4};  // regions split at once
 constexpr int kCoarseSweeps = 30;
