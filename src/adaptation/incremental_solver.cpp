@@ -21,6 +21,12 @@ using labeling::SolveResult;
 using labeling::SolveStatus;
 using labeling::Value;
 
+/// Work for all calls together when neither a work nor a time limit is given (about ten seconds).
+/// A component may take half of what is left, so that one hard one does not starve the rest, and
+/// always gets enough for a good local search.
+constexpr std::int64_t kDefaultWork = 100'000'000;
+constexpr std::int64_t kLeastWork = 2'000'000;
+
 /// Labels whose value single-label rules and conflicts with labels fixed to 1 decide; -1 = free.
 /// nullopt when they contradict each other.
 std::optional<std::vector<std::int8_t>> fixed_labels(const LabelingProblem& problem) {
@@ -155,6 +161,8 @@ SolveResult IncrementalSolver::solve_component(const Component& component,
     }
     if (options.work_limit) {
         options.work_limit = std::max<std::int64_t>(1000, *options.work_limit - work_used_);
+    } else if (!options.time_limit) {
+        options.work_limit = std::max(kLeastWork, (kDefaultWork - work_used_) / 2);
     }
     options.warm_start.clear();
     if (!warm_start.empty()) {

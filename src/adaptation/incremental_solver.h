@@ -18,7 +18,7 @@ public:
     IncrementalSolver(const labeling::Solver& solver, labeling::SolveOptions options);
 
     /// `warm_start` (may be empty): one label value each. Time and work limits are for all calls
-    /// together.
+    /// together; without either there is a default of work.
     labeling::SolveResult solve(const labeling::LabelingProblem& problem,
                                 const std::vector<std::int8_t>& warm_start);
 
