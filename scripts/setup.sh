@@ -64,6 +64,25 @@ configure() {
     (cd "$root" && cmake --preset release -DSCALEFCN_BUILD_TESTS="$1" >/dev/null)
 }
 
+# build [--target NAME]: the output goes to a log, of which a failure shows the end.
+build() {
+    local log="$build_folder/build.log"
+    say "building; the first time takes some minutes (log: $log)"
+    if ! cmake --build "$build_folder" -j "$(job_count)" "$@" 2>&1 | tee "$log" | show_progress; then
+        grep -n -A 5 -m 5 'error' "$log" >&2 || tail -n 30 "$log" >&2
+        exit 1
+    fi
+}
+
+# Ninja's "[12/80]" on a terminal, one line that is redrawn; nothing in a pipe.
+show_progress() {
+    if [ -t 1 ]; then
+        awk '/^\[[0-9]+\/[0-9]+\]/ { printf "\r%s ", $1; fflush() } END { printf "\r" }'
+    else
+        cat >/dev/null
+    fi
+}
+
 # fetch_meshes NAME...: from Debian's libcgal-demo into build/meshes. Returns 1 if that fails.
 fetch_meshes() {
     local name missing=() scratch

@@ -55,7 +55,7 @@ std::string verdict(const ScaleRecord& scale) {
 }
 
 std::vector<Row> triangle_rows(const MeshRecord& mesh) {
-    std::vector<Row> rows{{"scale", "edge length", "network", "triangles", "smallest angle",
+    std::vector<Row> rows{{"scale", "edge length", "network", "triangles", "smallest angle (deg)",
                            "under 15 deg", "under 30 deg", "shortest edge / target", "coverage",
                            "conforming"}};
     for (const ScaleRecord& scale : mesh.scales) {

@@ -1,13 +1,14 @@
-// `--method auto`: sharp edges describe a mechanical part and say little about a scan, where
-// dihedral angles above the threshold come as short crumbs. So sharp is taken when the sharp
-// network is long against the mesh and consists mainly of long curves, and VSA otherwise.
+// `--method auto`: a mechanical part has edges that are clearly sharp or clearly smooth; on a scan
+// the angles run on from one to the other. So sharp is taken when the edges above the threshold
+// are longer together than those of the grey zone below it, down to the hysteresis angle, and
+// long enough to describe the part; VSA otherwise.
 
 #include "app/detection.h"
 
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <sstream>
 
@@ -20,8 +21,6 @@ namespace fcn::app {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-/// A curve longer than this share of the diagonal counts as long for `auto`.
-constexpr double kLongCurveShare = 0.1;
 
 SharpOptions sharp_options(const DetectionArguments& arguments, double diagonal) {
     if (arguments.low_angle_degrees > arguments.sharp_angle_degrees)
@@ -68,29 +67,30 @@ VsaOptions vsa_options(const DetectionArguments& arguments, const Mesh& mesh, in
     return options;
 }
 
-bool is_mechanical(FeatureCurveNetwork sharp, double diagonal) {
-    find_curves(sharp);
-    double total = 0;
-    double in_long_curves = 0;
-    for (const NetworkCurve& curve : sharp.curves) {
-        total += curve.length;
-        if (curve.length > kLongCurveShare * diagonal) in_long_curves += curve.length;
+bool is_mechanical(const Mesh& mesh, const SharpOptions& options, double diagonal) {
+    double sharp = 0;
+    double grey = 0;
+    for (const EdgeHandle edge : mesh.edges()) {
+        const double angle = std::abs(dihedral_angle(mesh, edge));
+        if (angle >= options.high_angle)
+            sharp += mesh.calc_edge_length(edge);
+        else if (angle >= options.low_angle)
+            grey += mesh.calc_edge_length(edge);
     }
-    return total > diagonal && in_long_curves > total / 2;
+    return sharp > grey && sharp > diagonal;
 }
 
 Detection detect_features(const LoadedMesh& mesh, const DetectionArguments& arguments,
                           double diagonal, int threads) {
     Detection detection;
     detection.method = arguments.method;
-    if (arguments.method != "vsa") {
-        detection.network = detect_sharp(mesh, sharp_options(arguments, diagonal));
-        if (arguments.method == "auto") {
-            detection.method = is_mechanical(detection.network, diagonal) ? "sharp" : "vsa";
-            detection.messages.push_back(
-                fmt::format("feature detector chosen by --method auto: {}", detection.method));
-        }
+    const SharpOptions sharp = sharp_options(arguments, diagonal);
+    if (arguments.method == "auto") {
+        detection.method = is_mechanical(mesh.mesh, sharp, diagonal) ? "sharp" : "vsa";
+        detection.messages.push_back(
+            fmt::format("feature detector chosen by --method auto: {}", detection.method));
     }
+    if (detection.method == "sharp") detection.network = detect_sharp(mesh, sharp);
     if (detection.method == "vsa")
         detection.network = detect_vsa(mesh, vsa_options(arguments, mesh.mesh, threads));
     return detection;

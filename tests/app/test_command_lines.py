@@ -1,9 +1,13 @@
 """Help texts, exit codes, and wrong command lines and inputs, each with its message."""
 
 import gzip
+import os
+import pty
+import subprocess
 import unittest
 
-from scalefcn_process import BAD_INPUT, DONE, PROBLEM, TETRAHEDRON, USAGE, VIOLATION, ProgramTest
+from scalefcn_process import (BAD_INPUT, DONE, PROBLEM, PROGRAM, TETRAHEDRON, USAGE, VIOLATION,
+                              ProgramTest)
 
 COMMANDS = ["run", "detect", "adapt", "check", "remesh", "measure", "solve", "verify", "convert",
             "model"]
@@ -223,6 +227,28 @@ class BadInputs(ProgramTest):
                     "twice.off")
 
 
+class Terminal(ProgramTest):
+    def test_progress_is_drawn_on_a_terminal_only(self):
+        self.model("box", "--resolution", "0.1")
+        arguments = ["adapt", "box.off", "--scale", "10%", "-o", "a.fcn.json"]
+        piped = self.succeed(*arguments).stderr
+        self.assertNotIn("\r", piped)
+        self.assertNotIn("\x1b", piped)
+        main_side, terminal = pty.openpty()
+        process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, stderr=terminal,
+                                   stdout=subprocess.DEVNULL)
+        os.close(terminal)
+        drawn = b""
+        try:
+            while chunk := os.read(main_side, 4096):
+                drawn += chunk
+        except OSError:  # the terminal is closed when the program ends
+            pass
+        os.close(main_side)
+        self.assertEqual(process.wait(), DONE)
+        self.assertRegex(drawn.decode(), r"\[#*\.*\] +\d+% box")
+
+
 class ExitCodes(ProgramTest):
     def test_violations_have_their_own(self):
         self.write("p.lab", PROBLEM)
@@ -232,12 +258,6 @@ class ExitCodes(ProgramTest):
         self.assertIn("9", self.succeed("verify", "p.lab", "lie.sol", code=VIOLATION).stdout)
         self.write("right.sol", "v 9\n1\n3\n")
         self.succeed("verify", "p.lab", "right.sol", code=DONE)
-
-    def test_nothing_is_drawn_into_a_pipe(self):
-        self.model("box", "--resolution", "0.2")
-        result = self.succeed("adapt", "box.off", "--scale", "20%", "-o", "a.fcn.json")
-        self.assertNotIn("\r", result.stderr)
-        self.assertNotIn("\x1b", result.stderr)
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ def main():
         build = pathlib.Path(scratch) / "build"
         prefix = pathlib.Path(scratch) / "prefix"
         call(cmake, "-S", root, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-             "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DSCALEFCN_SOLVERS_ONLY=ON",
+             "-DCMAKE_CXX_FLAGS_RELEASE=-O0", "-DSCALEFCN_SOLVERS_ONLY=ON",
              "-DSCALEFCN_WITH_CBC=OFF", "-DSCALEFCN_BUILD_TESTS=OFF",
              f"-DCMAKE_INSTALL_PREFIX={prefix}",
              *[f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in FORBIDDEN])
