@@ -13,8 +13,8 @@
 // areas left and right of it (radius 2.5 edges) enclose the angle, too: an integral of normals over
 // an area depends on the area's border alone, so noise of single vertices fades fast, while a
 // crease keeps its angle. Tiny holes and ribs look like noise to that test; what tells them apart
-// is that their creases are regular: seven edges in a row that turn little and have the same
-// dihedral within 15%. Clean places and regular creases keep the plain dihedral.
+// is that their creases are regular: nine edges in a row, or a ring, that turn little and have the
+// same dihedral within 15%. Clean places and regular creases keep the plain dihedral.
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -66,8 +66,10 @@ std::array<double, 2> face_noise(const MeshArrays& arrays, int face) {
     std::array<double, 3> angles{};
     Vec3 mean = Vec3::Zero();
     for (int i = 0; i < 3; ++i) {
-        angles[i] = std::abs(arrays.dihedrals[arrays.face_edges[face][i]]);
         const int neighbor = arrays.face_neighbors[face][i];
+        // No neighbour agrees with nothing: boundary faces are as noisy as those behind them.
+        angles[i] = neighbor < 0 ? std::numbers::pi
+                                 : std::abs(arrays.dihedrals[arrays.face_edges[face][i]]);
         mean += arrays.normals[neighbor >= 0 ? neighbor : face];
     }
     std::sort(angles.begin(), angles.end());

@@ -23,8 +23,8 @@
 namespace fcn {
 namespace {
 
-constexpr int kMinCoarseItems = 6000;
-constexpr int kItemsPerPatch = 60;
+constexpr int kMinCoarseItems = 2500;
+constexpr int kItemsPerPatch = 70;
 constexpr std::array<double, 2> kBatchShares{0.2, 0.4};  // regions split at once
 constexpr int kCoarseSweeps = 30;
 constexpr int kFineSweeps = 100;
