@@ -9,7 +9,7 @@ class Determinism(ProgramTest):
     def run_in(self, folder, threads, *options):
         (self.folder / folder).mkdir()
         arguments = ["run", "ribs.off", "--scales", "5%,9%", "--no-timings", "--threads", threads,
-                     "--compare-work", "300000", "--json", "-o", "out", *options]
+                     "--work-limit", "3000000", "--compare-work", "300000", "--json", "-o", "out", *options]
         self.succeed("model", "ribs", "--resolution", "0.04", "--spacing", "0.08", "-o",
                      f"{folder}/ribs.off")
         base, self.folder = self.folder, self.folder / folder
