@@ -12,6 +12,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+SHOWN = {"dropped", "remesh"}
 PICTURE = re.compile(r'<img src="data:image/png;base64,([A-Za-z0-9+/=]+)" alt="([^"]*)"')
 
 
@@ -34,6 +35,8 @@ def main():
     folder = ROOT / "docs/images"
     folder.mkdir(parents=True, exist_ok=True)
     for name, (png, text) in zip(names, pictures):
+        if name not in SHOWN:
+            continue
         path = folder / f"fandisk_{name}.png"
         path.write_bytes(png)
         print(f"{path.relative_to(ROOT)}: {text}")
