@@ -21,6 +21,7 @@
 #include "labeling/rows.h"
 #include "labeling/subproblem.h"
 #include "labeling/term_graph.h"
+#include "labeling/triple_cuts.h"
 
 namespace labeling {
 namespace {
@@ -44,6 +45,7 @@ public:
           relaxation_(problem, options.lp),
           state_(problem, propagator_, relaxation_),
           separator_(problem, graph_),
+          triples_(problem, rows_, graph_),
           best_value_(lower),
           pseudo_costs_(problem.label_count()) {
         if (start && start->value > lower) {
@@ -144,7 +146,7 @@ private:
             if (round % 8 == 3 || (stalled == 1)) polish();
             if (is_prunable(root_bound_)) return NodeOutcome::Pruned;
             std::size_t added = 0;
-            if (stalled < 3) added = add_cliques({});
+            if (stalled < 3) added = add_cliques({}) + add_triples();
             if (added == 0 || stalled >= 2) {
                 if (gomory_rounds++ >= kMostGomoryRounds || stalled > 8) {
                     return NodeOutcome::Branch;
@@ -167,6 +169,17 @@ private:
         return added;
     }
 
+    std::size_t add_triples() {
+        const std::int64_t before = triples_.work() + separator_.work();
+        std::size_t added = 0;
+        for (Cut& cut : triples_.separate(relaxation_.x(), separator_, propagator_)) {
+            added += relaxation_.add(std::move(cut)) ? 1 : 0;
+        }
+        charge(triples_.work() + separator_.work() - before);
+        statistics.triple_cuts += static_cast<std::int64_t>(added);
+        return added;
+    }
+
     std::size_t add_gomory() {
         std::int64_t work = 0;
         std::size_t added = 0;
@@ -178,10 +191,11 @@ private:
         return added;
     }
 
+    /// Rows left out of the LP that its solution violates: dropped ones and rules.
     std::size_t add_violated_rules() {
         const auto x = relaxation_.x();
-        std::size_t added = 0;
         std::int64_t entries = 0;
+        std::size_t added = relaxation_.restore_violated_rows(entries);
         for (std::int32_t r = 0; r < rows_.row_count(); ++r) {
             double activity = 0;
             for (const Term& t : rows_.terms(r)) activity += t.coefficient * x[t.label];
@@ -226,9 +240,9 @@ private:
         if (!options_.solve_rest) return false;
         Decomposer decomposer(problem_, rows_);
         const auto parts = decomposer.parts(propagator_);
-        const Label free = propagator_.free_count();
-        const bool is_smaller = 3 * free < 2 * problem_.label_count();
-        if (!is_smaller && parts.size() < 2) return false;
+        std::size_t largest = 0;
+        for (const auto& part : parts) largest = std::max(largest, part.size());
+        if (3 * largest > 2 * static_cast<std::size_t>(problem_.label_count())) return false;
         const Value decided = decided_value(problem_, propagator_.values());
         Solution whole;
         whole.labels.resize(problem_.label_count());
@@ -241,7 +255,7 @@ private:
         for (const auto& part : parts) {
             const Subproblem sub = decomposer.extract(propagator_, part);
             const std::optional<Solution> start = restricted(sub);
-            TreeResult rest = options_.solve_rest(sub.problem, start, kNoValue);
+            TreeResult rest = options_.solve_rest(sub.problem, start);
             result_.nodes += rest.nodes;
             if (rest.bound == kNoValue && !rest.solution) return true;  // no better solution
             bound += rest.bound;
@@ -318,6 +332,8 @@ private:
 
     void search_tree() {
         root_size_ = state_.size();
+        relaxation_.drop_slack_rows(1);
+        tree_rows_ = relaxation_.row_count();
         Node current;
         current.bound = root_bound_;
         bool has_current = true;
@@ -391,13 +407,12 @@ private:
             if (result_.nodes % 16 == 1 && round == 0) polish();
             if (round >= kNodeRounds || add_cliques({0.01, 200, 200}) == 0) break;
         }
-        if (relaxation_.row_count() > kDropFactor * first_row_count()) {
-            relaxation_.drop_slack_rows(20);
+        if (relaxation_.row_count() > tree_rows_ + tree_rows_ / 2) {
+            relaxation_.drop_slack_rows(10);
+            tree_rows_ = std::max(tree_rows_, relaxation_.row_count());
         }
         return NodeOutcome::Branch;
     }
-
-    std::int32_t first_row_count() const { return 1000 + 2 * relaxation_.column_count(); }
 
     /// All labels are decided and consistent: the value is exact.
     NodeOutcome settle_leaf(const Node&) {
@@ -565,7 +580,6 @@ private:
     static constexpr int kMostStrong = 12;
     static constexpr int kPatience = 6;
     static constexpr int kReliable = 4;
-    static constexpr int kDropFactor = 1;
     static constexpr std::int64_t kStrongIterations = 60;
 
     const LabelingProblem& problem_;
@@ -578,10 +592,12 @@ private:
     Relaxation relaxation_;
     NodeState state_;
     CliqueSeparator separator_;
+    TripleSeparator triples_;
     TreeResult result_;
     Value best_value_;
     Value root_bound_ = kHuge, open_bound_ = kNoValue;
     std::size_t root_size_ = 0;
+    std::int32_t tree_rows_ = 0;
     std::priority_queue<Node, std::vector<Node>, WorseNode> open_;
     std::int64_t node_number_ = 0;
     std::vector<double> relaxation_x_;
@@ -603,6 +619,7 @@ TreeResult branch_and_cut(const LabelingProblem& problem, const std::optional<So
         statistics->nodes += search.statistics.nodes;
         statistics->lp_iterations += search.statistics.lp_iterations;
         statistics->clique_cuts += search.statistics.clique_cuts;
+        statistics->triple_cuts += search.statistics.triple_cuts;
         statistics->gomory_cuts += search.statistics.gomory_cuts;
         statistics->rule_rows += search.statistics.rule_rows;
         statistics->fixed_labels += search.statistics.fixed_labels;

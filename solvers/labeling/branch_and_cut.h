@@ -18,14 +18,14 @@ struct BranchAndCutOptions {
     std::uint64_t seed = 1;
     /// Called with every better value (of the whole problem given) and bound.
     std::function<void(std::optional<Value>, std::optional<Value>)> report;
-    /// Solves what is left when fixing by bounds has shrunk or split the problem at the root:
-    /// problem, start (may be absent), and the lower limit of the value.
-    std::function<TreeResult(const LabelingProblem&, const std::optional<Solution>&, Value)>
-        solve_rest;
+    /// Solves what is left when fixing by bounds has shrunk or split the problem at the root; gets
+    /// the problem and a start that may be absent. Empty: the tree does it all.
+    std::function<TreeResult(const LabelingProblem&, const std::optional<Solution>&)> solve_rest;
 };
 
 struct BranchAndCutStatistics {
-    std::int64_t nodes = 0, lp_iterations = 0, clique_cuts = 0, gomory_cuts = 0, rule_rows = 0;
+    std::int64_t nodes = 0, lp_iterations = 0, clique_cuts = 0, triple_cuts = 0, gomory_cuts = 0,
+                 rule_rows = 0;
     std::int64_t fixed_labels = 0;
 };
 

@@ -183,6 +183,26 @@ void CliqueSeparator::search(std::size_t depth, double weight, int& steps_left) 
     }
 }
 
+std::vector<TermGraph::Node> CliqueSeparator::best_clique(
+    std::span<const TermGraph::Node> candidates, double& weight, int max_steps) {
+    if (candidates_.empty()) candidates_.resize(1);
+    candidates_[0].assign(words_, 0);
+    for (Node v : candidates) {
+        const std::int32_t s = local_[v];
+        if (s >= 0) candidates_[0][s / 64] |= std::uint64_t{1} << (s % 64);
+    }
+    work_ += static_cast<std::int64_t>(candidates.size());
+    current_.clear();
+    best_.clear();
+    best_weight_ = 0;
+    int steps = max_steps;
+    search(0, 0, steps);
+    weight = best_weight_;
+    std::vector<Node> clique;
+    for (std::int32_t s : best_) clique.push_back(support_[s]);
+    return clique;
+}
+
 std::vector<Cut> CliqueSeparator::separate(std::span<const double> x,
                                            const CliqueCutOptions& options) {
     build_support(x);

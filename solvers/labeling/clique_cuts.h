@@ -29,6 +29,10 @@ public:
 
     /// Cuts that x violates, the most violated first.
     std::vector<Cut> separate(std::span<const double> x, const CliqueCutOptions& options = {});
+    /// After separate(): a clique of large value among the candidates (a short exact search); its
+    /// value into `weight`. Candidates of value 0 or 1 are ignored.
+    std::vector<TermGraph::Node> best_clique(std::span<const TermGraph::Node> candidates,
+                                             double& weight, int max_steps = 100);
     std::int64_t work() const { return work_; }
 
 private:

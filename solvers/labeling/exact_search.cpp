@@ -55,8 +55,12 @@ public:
         });
         control_.spend(decomposer_.work() / 16 + problem_.label_count() / 8);
         report();
-        for (std::size_t k = 0; k < parts_.size(); ++k) {
-            if (!solve(parts_[k])) return infeasible();
+        for (Part& part : parts_) {
+            if (!start(part)) return infeasible();
+        }
+        report();
+        for (Part& part : parts_) {
+            if (!prove(part)) return infeasible();
             report();
         }
         return result();
@@ -94,6 +98,7 @@ private:
         result.statistics["nodes"] = static_cast<double>(statistics_.nodes);
         result.statistics["lp-iterations"] = static_cast<double>(statistics_.lp_iterations);
         result.statistics["clique-cuts"] = static_cast<double>(statistics_.clique_cuts);
+        result.statistics["triple-cuts"] = static_cast<double>(statistics_.triple_cuts);
         result.statistics["gomory-cuts"] = static_cast<double>(statistics_.gomory_cuts);
         return result;
     }
@@ -109,23 +114,34 @@ private:
         control_.report(is_complete ? std::optional(value) : std::nullopt, bound);
     }
 
-    /// False: the part has no solution.
-    bool solve(Part& part) {
-        const LabelingProblem& p = part.sub.problem;
-        std::vector<std::int8_t> start;
-        if (!options_.warm_start.empty()) {
-            for (Label i : part.sub.to_parent) start.push_back(options_.warm_start[i]);
-        }
+    PartSearchOptions part_options(Part& part) {
         PartSearchOptions search;
         search.lp = exact_.lp;
         search.seed = options_.seed;
-        search.start = start;
-        search.report = [&](std::optional<Value> value, std::optional<Value> bound) {
-            if (value && (!part.solution || *value > part.value)) part.value = *value;
+        search.report = [&part, this](std::optional<Value> value, std::optional<Value> bound) {
+            if (value) part.value = std::max(part.value, *value);
             if (bound) part.bound = std::min(part.bound, *bound);
             report();
         };
-        TreeResult tree = search_part(p, control_, search, &statistics_);
+        return search;
+    }
+
+    /// False: the part has no solution.
+    bool start(Part& part) {
+        std::vector<std::int8_t> labels;
+        if (!options_.warm_start.empty()) {
+            for (Label i : part.sub.to_parent) labels.push_back(options_.warm_start[i]);
+        }
+        PartStart found = start_part(part.sub.problem, labels, control_, part_options(part));
+        part.solution = std::move(found.solution);
+        if (part.solution) part.value = part.solution->value;
+        return !found.is_infeasible;
+    }
+
+    /// False: the part has no solution.
+    bool prove(Part& part) {
+        TreeResult tree =
+            prove_part(part.sub.problem, part.solution, control_, part_options(part), &statistics_);
         if (tree.solution) part.solution = std::move(tree.solution);
         if (part.solution) part.value = part.solution->value;
         if (tree.bound == kNoValue) return false;

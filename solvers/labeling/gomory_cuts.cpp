@@ -1,35 +1,49 @@
-// Gomory's fractional cuts (1958) as Chvatal-Gomory cuts with exact arithmetic. The row of the
-// basis inverse that belongs to a fractional basic column has, on our problems, almost always a
-// small common denominator D: then multipliers p / D with integers p = D * fractional part are
-// recovered exactly, and
-//   sum_j floor(sum_r p_r a_rj / D) x_j <= floor(sum_r p_r b_r / D)
-// holds for all nonnegative integer x, columns at their upper bound being complemented first. The
-// tableau only suggests the multipliers; the cut is valid whatever they are. For each row the
-// multiples k p mod D are tried as well (k-cuts, Cornuejols, Li & Vandenbussche 2003).
+// Gomory's mixed-integer cuts (1960) with exact arithmetic. A row of the tableau is a combination
+// of the LP's rows; its multipliers, rounded to integers p over a common denominator D (a small one
+// where that fits all of them, a large power of two otherwise), give the exact equation
+//   sum_j a_j x_j + sum_r p_r s_r = b   (all over D; slacks s_r = b_r - a_r x are integers >= 0)
+// and with R(a) = a mod D, R0 = R(b), G(a) = floor(a / D) (D - R0) + max(0, R(a) - R0) the valid
+// inequality  sum_j G(a_j) x_j + sum_r G(p_r) s_r <= floor(b / D) (D - R0).  Columns at their upper
+// bound are complemented first. Coefficients too large for a row are divided and rounded down,
+// which keeps the cut valid because all variables are nonnegative. The tableau only suggests the
+// multipliers: the cut holds whatever they are. Unlike with plain rounding, small errors of p
+// change the cut little, so nothing depends on recovering the tableau exactly.
 #include "labeling/gomory_cuts.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
 
 namespace labeling {
 namespace {
 
-std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
-    const std::int64_t q = a / b;
+constexpr std::int64_t kCoarse = 60;
+constexpr double kFine = 1 << 22;
+constexpr std::int64_t kLargest = std::int64_t{1} << 18;
+
+Int128 floor_divide(Int128 a, Int128 b) {
+    const Int128 q = a / b;
     return q * b > a ? q - 1 : q;
 }
 
-/// Smallest D with all D * inverse near integers, 0 if none.
-int common_denominator(const std::vector<double>& inverse, int largest) {
-    for (int d = 2; d <= largest; ++d) {
-        const bool fits = std::all_of(inverse.begin(), inverse.end(), [d](double u) {
-            const double scaled = u * d;
-            return std::abs(scaled - std::round(scaled)) < 1e-5 * d;
+/// Smallest D <= kCoarse with all D * inverse near integers, 0 if none.
+std::int64_t common_denominator(const std::vector<double>& inverse) {
+    for (std::int64_t d = 2; d <= kCoarse; ++d) {
+        const auto scale = static_cast<double>(d);
+        const bool fits = std::all_of(inverse.begin(), inverse.end(), [scale](double u) {
+            return std::abs(u * scale - std::round(u * scale)) < 1e-6 * scale;
         });
         if (fits) return d;
     }
     return 0;
+}
+
+double efficacy(const Cut& cut, std::span<const double> x) {
+    double norm = 0;
+    for (const Cut::Entry& e : cut.entries) {
+        norm += static_cast<double>(e.coefficient) * e.coefficient;
+    }
+    return (cut.activity(x) - static_cast<double>(cut.right_hand_side)) / std::sqrt(norm);
 }
 
 class CutBuilder {
@@ -38,29 +52,34 @@ public:
         : relaxation_(relaxation),
           options_(options),
           x_(relaxation.x()),
-          sums_(relaxation.column_count(), 0) {}
+          sums_(relaxation.column_count(), 0),
+          is_touched_(relaxation.column_count(), 0) {}
 
-    /// The best cut of the multiples of one tableau row; empty when none is violated.
-    Cut build(const std::vector<double>& inverse, int denominator) {
-        std::vector<std::pair<std::int32_t, std::int64_t>> residues;
+    /// The best cut of the multiples of one tableau row; empty when none is violated enough.
+    Cut build(std::vector<double> inverse) {
+        double coarsest = 1;
         for (std::size_t r = 0; r < inverse.size(); ++r) {
-            const auto p = static_cast<std::int64_t>(std::llround(inverse[r] * denominator));
-            const std::int64_t residue = p - denominator * floor_divide(p, denominator);
-            if (residue != 0) residues.emplace_back(static_cast<std::int32_t>(r), residue);
+            const double scale = relaxation_.row_scale(static_cast<std::int32_t>(r));
+            inverse[r] /= scale;
+            if (inverse[r] != 0) coarsest = std::max(coarsest, scale);
+        }
+        std::int64_t denominator = coarsest > 1 ? 0 : common_denominator(inverse);
+        if (denominator == 0) denominator = static_cast<std::int64_t>(kFine * coarsest);
+        multipliers_.clear();
+        for (std::size_t r = 0; r < inverse.size(); ++r) {
+            const double scaled = inverse[r] * static_cast<double>(denominator);
+            if (!(std::abs(scaled) < 1e15)) return {};
+            const auto p = static_cast<std::int64_t>(std::llround(scaled));
+            if (p != 0) multipliers_.push_back({static_cast<std::int32_t>(r), p});
         }
         Cut best;
-        double best_score = 0;
-        for (int k = 1; k < std::min(denominator, 8); ++k) {
-            Cut cut = combine(residues, denominator, k);
+        double best_efficacy = options_.min_efficacy;
+        for (int k = 1; k <= options_.max_multiple; ++k) {
+            Cut cut = combine(denominator, k);
             if (cut.entries.empty()) continue;
-            double norm = 0;
-            for (const Cut::Entry& e : cut.entries) {
-                norm += static_cast<double>(e.coefficient) * e.coefficient;
-            }
-            const double violation = cut.activity(x_) - static_cast<double>(cut.right_hand_side);
-            const double score = violation / std::sqrt(norm);
-            if (violation < options_.min_violation || score <= best_score) continue;
-            best_score = score;
+            const double e = efficacy(cut, x_);
+            if (e <= best_efficacy) continue;
+            best_efficacy = e;
             best = std::move(cut);
         }
         return best;
@@ -69,53 +88,125 @@ public:
     std::int64_t work = 0;
 
 private:
-    Cut combine(const std::vector<std::pair<std::int32_t, std::int64_t>>& residues,
-                std::int64_t denominator, int multiple) {
+    struct Multiplier {
+        std::int32_t row;
+        std::int64_t p;
+    };
+
+    bool is_complemented(std::int32_t c) const { return relaxation_.at_one(c) || x_[c] > 1 - 1e-7; }
+
+    void add_row(const Cut& row, Int128 factor) {
+        for (const Cut::Entry& e : row.entries) {
+            if (is_touched_[e.column] == 0) {
+                is_touched_[e.column] = 1;
+                touched_.push_back(e.column);
+            }
+            sums_[e.column] += factor * e.coefficient;
+        }
+        work += static_cast<std::int64_t>(row.entries.size());
+    }
+
+    Cut combine(std::int64_t denominator, int multiple) {
+        for (std::int32_t c : touched_) {
+            sums_[c] = 0;
+            is_touched_[c] = 0;
+        }
         touched_.clear();
-        std::int64_t side = 0;
-        for (const auto& [r, residue] : residues) {
-            const std::int64_t p = (residue * multiple) % denominator;
-            if (p == 0) continue;
-            const Cut& row = relaxation_.row(r);
-            side += p * row.right_hand_side;
+        Int128 side = 0;
+        for (const Multiplier& m : multipliers_) {
+            const Cut& row = relaxation_.row(m.row);
+            side += Int128{m.p * multiple} * row.right_hand_side;
+            add_row(row, m.p * multiple);
+        }
+        for (std::int32_t c : touched_) {
+            if (!is_complemented(c)) continue;
+            side -= sums_[c];
+            sums_[c] = -sums_[c];
+        }
+        const Int128 whole = floor_divide(side, denominator);
+        const auto rest = static_cast<std::int64_t>(side - whole * denominator);
+        const double fraction = static_cast<double>(rest) / static_cast<double>(denominator);
+        if (fraction < 0.02 || fraction > 0.98) return {};
+        const std::int64_t complement = denominator - rest;
+        auto rounded = [&](Int128 a) -> Int128 {
+            const Int128 floor = floor_divide(a, denominator);
+            const auto remainder = static_cast<std::int64_t>(a - floor * denominator);
+            return floor * complement + std::max<std::int64_t>(0, remainder - rest);
+        };
+        for (std::int32_t c : touched_) sums_[c] = rounded(sums_[c]);
+        Int128 cut_side = whole * complement;
+        substitute_slacks(rounded, multiple, cut_side);
+        return finished(cut_side);
+    }
+
+    /// Adds G(p) s with s = b_r - a_r x in terms of the columns, complemented ones included.
+    template <typename Rounded>
+    void substitute_slacks(const Rounded& rounded, int multiple, Int128& side) {
+        for (const Multiplier& m : multipliers_) {
+            const Int128 g = rounded(Int128{m.p * multiple});
+            if (g == 0) continue;
+            const Cut& row = relaxation_.row(m.row);
+            side -= g * row.right_hand_side;
             for (const Cut::Entry& e : row.entries) {
-                if (sums_[e.column] == 0) touched_.push_back(e.column);
-                sums_[e.column] += p * e.coefficient;
+                if (is_complemented(e.column)) {
+                    sums_[e.column] += g * e.coefficient;
+                    side += g * e.coefficient;
+                } else {
+                    sums_[e.column] -= g * e.coefficient;
+                }
             }
             work += static_cast<std::int64_t>(row.entries.size());
         }
-        std::sort(touched_.begin(), touched_.end());
-        touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
-        Cut cut;
-        std::int64_t complemented = 0;
-        bool is_good = true;
+    }
+
+    /// Makes the numbers small, undoes the complements; empty when the cut is too dense.
+    Cut finished(Int128 side) {
+        Int128 largest = 0;
+        std::size_t entries = 0;
         for (std::int32_t c : touched_) {
-            const std::int64_t sum = sums_[c];
-            sums_[c] = 0;
-            if (relaxation_.at_zero(c)) continue;
-            std::int64_t coefficient = 0;
-            if (relaxation_.at_one(c) || x_[c] > 1 - 1e-6) {
-                // In terms of 1 - x: coefficient -sum, rounded down.
-                side -= sum;
-                coefficient = -floor_divide(-sum, denominator);
-                complemented += coefficient;
-            } else {
-                coefficient = floor_divide(sum, denominator);
+            if (relaxation_.at_zero(c) || relaxation_.at_one(c)) sums_[c] = 0;
+            largest = std::max(largest, sums_[c] < 0 ? -sums_[c] : sums_[c]);
+            entries += sums_[c] != 0 ? 1 : 0;
+        }
+        if (largest == 0) return {};
+        if (largest > kLargest) {
+            const Int128 divisor = largest / kLargest + 1;
+            side = floor_divide(side, divisor);
+            entries = 0;
+            for (std::int32_t c : touched_) {
+                sums_[c] = floor_divide(sums_[c], divisor);
+                entries += sums_[c] != 0 ? 1 : 0;
             }
+        }
+        if (entries > options_.max_entries || entries == 0) return {};
+        std::sort(touched_.begin(), touched_.end());
+        Cut cut;
+        for (std::int32_t c : touched_) {
+            auto coefficient = static_cast<std::int64_t>(sums_[c]);
             if (coefficient == 0) continue;
-            is_good = is_good && std::abs(coefficient) <= options_.max_coefficient;
+            if (is_complemented(c)) {
+                side -= coefficient;
+                coefficient = -coefficient;
+            }
             cut.entries.push_back({c, static_cast<std::int32_t>(coefficient)});
         }
-        cut.right_hand_side = floor_divide(side, denominator) + complemented;
-        if (!is_good || cut.entries.size() > options_.max_entries) cut.entries.clear();
+        cut.right_hand_side = static_cast<std::int64_t>(side);
+        std::int64_t divisor = 0;
+        for (const Cut::Entry& e : cut.entries) {
+            divisor = std::gcd(divisor, std::int64_t{e.coefficient});
+        }
+        for (Cut::Entry& e : cut.entries) e.coefficient /= static_cast<std::int32_t>(divisor);
+        cut.right_hand_side = static_cast<std::int64_t>(floor_divide(cut.right_hand_side, divisor));
         return cut;
     }
 
     const Relaxation& relaxation_;
     const GomoryCutOptions& options_;
     std::span<const double> x_;
-    std::vector<std::int64_t> sums_;
+    std::vector<Int128> sums_;
+    std::vector<std::uint8_t> is_touched_;
     std::vector<std::int32_t> touched_;
+    std::vector<Multiplier> multipliers_;
 };
 
 }  // namespace
@@ -133,22 +224,12 @@ std::vector<Cut> gomory_cuts(Relaxation& relaxation, const GomoryCutOptions& opt
     if (fractional.size() > options.max_rows) fractional.resize(options.max_rows);
     std::vector<std::int32_t> columns;
     for (const auto& [distance, c] : fractional) columns.push_back(c);
-    const auto inverse = relaxation.engine().inverse_rows(columns);
     CutBuilder builder(relaxation, options);
     std::vector<std::pair<double, Cut>> found;
-    for (const auto& row : inverse) {
-        if (row.empty()) continue;
+    for (const auto& row : relaxation.engine().inverse_rows(columns)) {
         builder.work += static_cast<std::int64_t>(row.size()) * 2;
-        const int denominator = common_denominator(row, options.max_denominator);
-        if (denominator == 0) continue;
-        Cut cut = builder.build(row, denominator);
-        if (cut.entries.empty()) continue;
-        double norm = 0;
-        for (const Cut::Entry& e : cut.entries) {
-            norm += static_cast<double>(e.coefficient) * e.coefficient;
-        }
-        const double violation = cut.activity(x) - static_cast<double>(cut.right_hand_side);
-        found.emplace_back(violation / std::sqrt(norm), std::move(cut));
+        Cut cut = builder.build(row);
+        if (!cut.entries.empty()) found.emplace_back(efficacy(cut, x), std::move(cut));
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });

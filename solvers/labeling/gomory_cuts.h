@@ -8,15 +8,14 @@
 namespace labeling {
 
 struct GomoryCutOptions {
-    std::size_t max_rows = 300;  ///< tableau rows tried
+    std::size_t max_rows = 300;  ///< tableau rows tried, the most fractional first
     std::size_t max_cuts = 150;
-    std::size_t max_entries = 200;
-    std::int64_t max_coefficient = 1000;
-    int max_denominator = 60;
-    double min_violation = 0.01;
+    std::size_t max_entries = 250;
+    int max_multiple = 3;  ///< each row is tried times 1 .. this
+    double min_efficacy = 1e-3;
 };
 
-/// Chvatal-Gomory cuts from the rows of the optimal tableau of the last solve(), derived anew in
+/// Gomory mixed-integer cuts from the optimal tableau of the last solve(), derived anew in
 /// integers; valid for all integer points of the relaxation that respect its current fixings.
 std::vector<Cut> gomory_cuts(Relaxation& relaxation, const GomoryCutOptions& options,
                              std::int64_t& work);

@@ -18,6 +18,8 @@ namespace labeling {
 namespace {
 
 constexpr std::int64_t kEntriesPerTick = 16;
+/// Up to so many labels the construction takes milliseconds and is finished in any case.
+constexpr Label kUninterrupted = 20000;
 
 class GreedyBuilder {
 public:
@@ -86,7 +88,7 @@ private:
             if (!decide(top.label, true)) return false;
             ++result.insertions;
             absorb();
-            if (control_.is_over()) break;
+            if (n > kUninterrupted && control_.spend(0)) break;
         }
         for (Label i = 0; i < n; ++i) {
             if (!decide(i, false)) return false;

@@ -14,15 +14,14 @@ namespace labeling {
 
 struct LocalSearchOptions {
     std::uint64_t seed = 1;
-    /// Work of the first annealing chain in ticks; each further chain is longer by half, up to 16
-    /// times. 0 = chosen from the size.
+    /// Work of the first annealing chain in ticks; 0 = chosen from the size.
     std::int64_t first_chain = 0;
     /// Temperature at which the first chain begins, in medians of (weight + half the bonuses).
     double start_temperature = 3.0;
 };
 
 struct LocalSearchStatistics {
-    std::int64_t moves = 0, accepted = 0, chains = 0;
+    std::int64_t moves = 0, accepted = 0, chains = 0, windows = 0;
     Value crossover_gain = 0;  ///< value won by keeping the good parts of worse chains
 };
 

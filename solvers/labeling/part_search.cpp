@@ -18,82 +18,65 @@ constexpr std::int64_t kSearchTicksPerLabel = 1000;
 /// Beyond this many columns the first LP alone would take minutes.
 constexpr std::size_t kMostColumns = 100000;
 
-class PartSearch {
-public:
-    PartSearch(RunControl& control, const PartSearchOptions& options,
-               BranchAndCutStatistics* statistics)
-        : control_(control), options_(options), statistics_(statistics) {}
-
-    TreeResult solve(const LabelingProblem& problem) {
-        const RowSystem rows(problem);
-        GreedyOptions greedy;
-        greedy.start = options_.start;
-        GreedyResult found = greedy_labeling(problem, rows, control_, greedy);
-        if (found.is_infeasible) return {};
-        std::optional<Solution> start = std::move(found.solution);
-        if (start && options_.report) options_.report(start->value, std::nullopt);
-        if (start && problem.label_count() > kTinyPart && !control_.should_stop()) {
-            start = improved(problem, rows, std::move(*start));
-            if (options_.report) options_.report(start->value, std::nullopt);
-        }
-        return prove(problem, start, options_.report);
-    }
-
-private:
-    using Report = std::function<void(std::optional<Value>, std::optional<Value>)>;
-
-    Solution improved(const LabelingProblem& problem, const RowSystem& rows, Solution start) {
-        RunControl::Cap cap(control_, kSearchTicksPerLabel * problem.label_count());
-        LocalSearchOptions search;
-        search.seed = options_.seed;
-        return improve_labeling(problem, rows, control_, std::move(start), search);
-    }
-
-    TreeResult by_tree(const LabelingProblem& problem, const std::optional<Solution>& start) {
-        TreeResult result = tree_search(problem, start ? start->value : kNoValue, control_);
-        if (statistics_ != nullptr) statistics_->nodes += result.nodes;
-        if (!result.solution) result.solution = start;
-        return result;
-    }
-
-    TreeResult prove(const LabelingProblem& problem, std::optional<Solution> start,
-                     const Report& report) {
-        const std::size_t columns =
-            static_cast<std::size_t>(problem.label_count()) + problem.bonus_count();
-        if (!options_.lp || problem.label_count() <= kTinyPart || columns > kMostColumns) {
-            return by_tree(problem, start);
-        }
-        if (problem.label_count() <= kSmallPart) {
-            RunControl::Cap cap(control_, kSmallTreeTicks);
-            TreeResult result = by_tree(problem, start);
-            if (result.is_closed(kNoValue) || control_.is_over()) return result;
-            start = std::move(result.solution);
-        }
-        BranchAndCutOptions cut;
-        cut.lp = options_.lp;
-        cut.seed = options_.seed;
-        cut.report = report;
-        cut.solve_rest = [this](const LabelingProblem& rest,
-                                const std::optional<Solution>& rest_start, Value) {
-            if (rest_start) return prove(rest, rest_start, {});
-            PartSearchOptions plain;
-            plain.lp = options_.lp;
-            plain.seed = options_.seed;
-            return PartSearch(control_, plain, statistics_).solve(rest);
-        };
-        return branch_and_cut(problem, start, kNoValue, control_, cut, statistics_);
-    }
-
-    RunControl& control_;
-    const PartSearchOptions& options_;
-    BranchAndCutStatistics* statistics_;
-};
+TreeResult by_tree(const LabelingProblem& problem, const std::optional<Solution>& start,
+                   RunControl& control, BranchAndCutStatistics* statistics) {
+    TreeResult result = tree_search(problem, start ? start->value : kNoValue, control);
+    if (statistics != nullptr) statistics->nodes += result.nodes;
+    if (!result.solution) result.solution = start;
+    return result;
+}
 
 }  // namespace
 
-TreeResult search_part(const LabelingProblem& problem, RunControl& control,
-                       const PartSearchOptions& options, BranchAndCutStatistics* statistics) {
-    return PartSearch(control, options, statistics).solve(problem);
+PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t> labels,
+                     RunControl& control, const PartSearchOptions& options) {
+    const RowSystem rows(problem);
+    GreedyOptions greedy;
+    greedy.start = labels;
+    GreedyResult found = greedy_labeling(problem, rows, control, greedy);
+    PartStart start{std::move(found.solution), found.is_infeasible};
+    if (!start.solution) return start;
+    if (options.report) options.report(start.solution->value, std::nullopt);
+    if (problem.label_count() <= kTinyPart || control.should_stop()) return start;
+    RunControl::Cap cap(control, kSearchTicksPerLabel * problem.label_count());
+    LocalSearchOptions search;
+    search.seed = options.seed;
+    const std::function<void(Value)> report = [&](Value value) {
+        if (options.report) options.report(value, std::nullopt);
+    };
+    start.solution =
+        improve_labeling(problem, rows, control, std::move(*start.solution), search, report);
+    return start;
+}
+
+TreeResult prove_part(const LabelingProblem& problem, const std::optional<Solution>& start,
+                      RunControl& control, const PartSearchOptions& options,
+                      BranchAndCutStatistics* statistics) {
+    const std::size_t columns =
+        static_cast<std::size_t>(problem.label_count()) + problem.bonus_count();
+    if (!options.lp || problem.label_count() <= kTinyPart || columns > kMostColumns) {
+        return by_tree(problem, start, control, statistics);
+    }
+    std::optional<Solution> best = start;
+    if (problem.label_count() <= kSmallPart) {
+        RunControl::Cap cap(control, kSmallTreeTicks);
+        TreeResult result = by_tree(problem, start, control, statistics);
+        if (result.is_closed(kNoValue) || control.is_over()) return result;
+        best = std::move(result.solution);
+    }
+    BranchAndCutOptions cut;
+    cut.lp = options.lp;
+    cut.seed = options.seed;
+    cut.report = options.report;
+    cut.solve_rest = [&](const LabelingProblem& rest, const std::optional<Solution>& rest_start) {
+        PartSearchOptions quiet = options;
+        quiet.report = {};
+        if (rest_start) return prove_part(rest, rest_start, control, quiet, statistics);
+        const PartStart fresh = start_part(rest, {}, control, quiet);
+        if (fresh.is_infeasible) return TreeResult{};
+        return prove_part(rest, fresh.solution, control, quiet, statistics);
+    };
+    return branch_and_cut(problem, best, kNoValue, control, cut, statistics);
 }
 
 }  // namespace labeling

@@ -15,16 +15,25 @@ namespace labeling {
 struct PartSearchOptions {
     LpFactory lp;  ///< empty: clique bounds alone
     std::uint64_t seed = 1;
-    /// One entry per label, 1, 0 or -1, or empty.
-    std::span<const std::int8_t> start;
     /// Better values and bounds of the part as they are found; may be empty.
     std::function<void(std::optional<Value>, std::optional<Value>)> report;
 };
 
-/// Solves one connected problem as far as `control` allows: greedy, local search as long as the
-/// size justifies, then the depth-first tree for few labels and branch-and-cut for more. The
-/// solution is the best found; bound == kNoValue proves that there is none.
-TreeResult search_part(const LabelingProblem& problem, RunControl& control,
-                       const PartSearchOptions& options, BranchAndCutStatistics* statistics);
+struct PartStart {
+    std::optional<Solution> solution;
+    bool is_infeasible = false;  ///< proven
+};
+
+/// Greedy, then local search as long as the size justifies. `labels`: one entry per label, 1, 0 or
+/// -1 (unknown), or empty.
+PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t> labels,
+                     RunControl& control, const PartSearchOptions& options);
+
+/// Solves one connected problem as far as `control` allows: the depth-first tree for few labels,
+/// branch-and-cut for more. The solution is the best found, `start` included; bound == kNoValue
+/// proves that there is none.
+TreeResult prove_part(const LabelingProblem& problem, const std::optional<Solution>& start,
+                      RunControl& control, const PartSearchOptions& options,
+                      BranchAndCutStatistics* statistics);
 
 }  // namespace labeling

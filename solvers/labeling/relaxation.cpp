@@ -1,7 +1,7 @@
 // Exact bounds from a floating-point LP. For any multipliers y >= 0,
 //   max { c x : A x <= b, l <= x <= u }  <=  y b + sum_j max over x_j in [l_j, u_j] of (c - y A)_j
 //   x_j,
-// so we round the solver's multipliers to multiples of 2^-20 and evaluate the right side in 128-bit
+// so we round the solver's multipliers to multiples of 2^-36 and evaluate the right side in 128-bit
 // integers (Neumaier & Shcherbina 2004 do the same with interval arithmetic). The objective handed
 // to the solver is divided by a power of two, so nothing is lost there. Infeasibility is believed
 // only when the solver's ray proves it the same way.
@@ -54,14 +54,28 @@ bool Relaxation::add(Cut cut) {
         --row_hashes_[hash];
         return false;
     }
-    std::vector<LpEngine::Entry> entries;
-    entries.reserve(cut.entries.size());
-    for (const Cut::Entry& e : cut.entries) {
-        entries.push_back({e.column, static_cast<double>(e.coefficient)});
-    }
-    engine_->add_row(entries, static_cast<double>(cut.right_hand_side));
-    rows_.push_back({std::move(cut), next_id_++, 0, hash});
+    insert({std::move(cut), 0, 0, hash});
     return true;
+}
+
+void Relaxation::insert(Row row) {
+    std::vector<LpEngine::Entry> entries;
+    entries.reserve(row.cut.entries.size());
+    std::int32_t largest = 1;
+    for (const Cut::Entry& e : row.cut.entries) {
+        largest = std::max(largest, std::abs(e.coefficient));
+    }
+    row.scale = 1;
+    row.largest = std::max(static_cast<double>(largest),
+                           std::abs(static_cast<double>(row.cut.right_hand_side)));
+    while (row.scale * 8 < largest) row.scale *= 2;
+    for (const Cut::Entry& e : row.cut.entries) {
+        entries.push_back({e.column, e.coefficient / row.scale});
+    }
+    engine_->add_row(entries, static_cast<double>(row.cut.right_hand_side) / row.scale);
+    row.id = next_id_++;
+    row.slack_age = 0;
+    rows_.push_back(std::move(row));
 }
 
 void Relaxation::fix(std::int32_t column, bool value) {
@@ -109,12 +123,13 @@ void Relaxation::compute_bound() {
     scaled_bound_ = 0;
     const double factor = std::ldexp(scale_, kShift);
     for (std::size_t r = 0; r < rows_.size() && r < multipliers.size(); ++r) {
-        const double y = multipliers[r] * factor;
-        if (!(y >= 0.5) || y > 1e18) continue;
-        const auto rounded = static_cast<std::int64_t>(y + 0.5);
-        scaled_bound_ += static_cast<Int128>(rounded) * rows_[r].cut.right_hand_side;
+        const double y = multipliers[r] * factor / rows_[r].scale;
+        // Leaving a row out keeps the bound valid; sums stay below 2^127.
+        if (!(y >= 0.5) || y * rows_[r].largest > 1e33) continue;
+        const auto rounded = static_cast<Int128>(y + 0.5);
+        scaled_bound_ += rounded * rows_[r].cut.right_hand_side;
         for (const Cut::Entry& e : rows_[r].cut.entries) {
-            reduced_[e.column] -= static_cast<Int128>(rounded) * e.coefficient;
+            reduced_[e.column] -= rounded * e.coefficient;
         }
     }
     for (std::size_t c = 0; c < objective_.size(); ++c) {
@@ -136,12 +151,12 @@ bool Relaxation::prove_infeasible() {
         Int128 side = 0;
         std::vector<Int128> sums(objective_.size(), 0);
         for (std::size_t r = 0; r < rows_.size(); ++r) {
-            const double y = ray[r] * factor;
-            if (!(y >= 0.5)) continue;
-            const auto rounded = static_cast<std::int64_t>(y + 0.5);
-            side += static_cast<Int128>(rounded) * rows_[r].cut.right_hand_side;
+            const double y = ray[r] * factor / rows_[r].scale;
+            if (!(y >= 0.5) || y * rows_[r].largest > 1e33) continue;
+            const auto rounded = static_cast<Int128>(y + 0.5);
+            side += rounded * rows_[r].cut.right_hand_side;
             for (const Cut::Entry& e : rows_[r].cut.entries) {
-                sums[e.column] += static_cast<Int128>(rounded) * e.coefficient;
+                sums[e.column] += rounded * e.coefficient;
             }
         }
         for (std::size_t c = 0; c < sums.size(); ++c) {
@@ -164,7 +179,8 @@ Value Relaxation::bound_if(std::int32_t column, bool value) const {
 void Relaxation::age_rows() {
     const auto activities = engine_->activities();
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-        const double slack = static_cast<double>(rows_[r].cut.right_hand_side) - activities[r];
+        const double slack =
+            static_cast<double>(rows_[r].cut.right_hand_side) / rows_[r].scale - activities[r];
         rows_[r].slack_age = slack > 1e-6 ? rows_[r].slack_age + 1 : 0;
     }
 }
@@ -175,7 +191,7 @@ void Relaxation::drop_slack_rows(int age) {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         if (rows_[r].slack_age >= age) {
             dropped.push_back(static_cast<std::int32_t>(r));
-            row_hashes_.erase(rows_[r].hash);
+            aside_.push_back(std::move(rows_[r]));
             continue;
         }
         if (kept != r) rows_[kept] = std::move(rows_[r]);
@@ -183,6 +199,24 @@ void Relaxation::drop_slack_rows(int age) {
     }
     rows_.resize(kept);
     engine_->remove_rows(dropped);
+}
+
+std::size_t Relaxation::restore_violated_rows(std::int64_t& work) {
+    const auto x = engine_->columns();
+    std::size_t kept = 0, restored = 0;
+    for (Row& row : aside_) {
+        work += static_cast<std::int64_t>(row.cut.entries.size());
+        const double excess = row.cut.activity(x) - static_cast<double>(row.cut.right_hand_side);
+        if (excess > 1e-6 * row.scale) {
+            insert(std::move(row));
+            ++restored;
+        } else {
+            if (&aside_[kept] != &row) aside_[kept] = std::move(row);
+            ++kept;
+        }
+    }
+    aside_.resize(kept);
+    return restored;
 }
 
 Relaxation::SavedBasis Relaxation::save_basis() const {

@@ -44,6 +44,8 @@ public:
     /// False when an equal row is there already.
     bool add(Cut cut);
     const Cut& row(std::int32_t r) const { return rows_[r].cut; }
+    /// Power of two by which the LP's copy of the row is smaller.
+    double row_scale(std::int32_t r) const { return rows_[r].scale; }
 
     void fix(std::int32_t column, bool value);
     void unfix(std::int32_t column);
@@ -64,8 +66,11 @@ public:
     /// fixing to 1 (value) or 0 proves a bound of this or less.
     Value bound_if(std::int32_t column, bool value) const;
 
-    /// Drops rows that were slack in the last `age` solves.
+    /// Takes rows that were slack in the last `age` solves out of the LP; they are kept aside.
     void drop_slack_rows(int age);
+    /// Puts rows back that were kept aside and that x violates; returns how many. Adds the entries
+    /// looked at to `work`.
+    std::size_t restore_violated_rows(std::int64_t& work);
     /// Basis with row identities, so that it can be restored after rows came and went.
     struct SavedBasis {
         LpEngine::Basis columns;
@@ -80,18 +85,22 @@ private:
         std::uint32_t id = 0;
         int slack_age = 0;
         std::uint64_t hash = 0;
+        double scale = 1;    ///< the LP holds the row divided by this
+        double largest = 1;  ///< largest absolute number in the row
     };
 
+    void insert(Row row);
     void compute_bound();
     bool prove_infeasible();
     void age_rows();
 
-    static constexpr int kShift = 20;
+    static constexpr int kShift = 36;
 
     std::unique_ptr<LpEngine> engine_;
     std::vector<Value> objective_;
     std::vector<std::int8_t> lower_, upper_;
     std::vector<Row> rows_;
+    std::vector<Row> aside_;
     std::unordered_map<std::uint64_t, int> row_hashes_;
     std::vector<Int128> reduced_;  ///< exact reduced costs, scaled by 2^kShift
     Int128 scaled_bound_ = 0;
