@@ -73,9 +73,12 @@ private:
         }
         html_.open("nav", {{"aria-label", "Contents"}});
         html_.open("ul");
-        for (std::size_t i = 0; i < meshes_.size(); ++i)
-            write_link(mesh_id(i), meshes_[i].mesh.name);
         write_link("summary", "Closing table");
+        for (std::size_t i = 0; i < meshes_.size(); ++i) {
+            write_link(mesh_id(i), meshes_[i].mesh.name);
+            for (std::size_t s = 0; s < meshes_[i].scales.size(); ++s)
+                write_link(scale_id(i, s), meshes_[i].mesh.name + " " + meshes_[i].scales[s].label);
+        }
         html_.close();
         html_.close();
         html_.close();
