@@ -17,11 +17,11 @@ struct Solution {
 /// What check_solution found; empty lists mean feasible.
 struct SolutionCheck {
     bool is_feasible = false;
-    Value value = 0;                 ///< recomputed, whatever the solution claims
-    bool value_matches = false;      ///< claimed == recomputed
+    Value value = 0;             ///< recomputed, whatever the solution claims
+    bool value_matches = false;  ///< claimed == recomputed
     std::vector<Conflict> violated_conflicts;
     std::vector<std::int32_t> violated_rules;
-    std::string message;             ///< one line, empty when feasible and matching
+    std::string message;  ///< one line, empty when feasible and matching
 };
 
 /// Recomputes value and every violated constraint in integers. Shares no code with any solver.
