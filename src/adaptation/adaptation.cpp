@@ -1,9 +1,9 @@
 // The adaptation loop (paper section 5, Figure 2): resample, detect conflicts, label, collapse,
-// again until nothing changes. Where the paper argues that every round removes a segment, here
-// the number of dense sample intervals and of extraordinary nodes decides: dropping a segment or
-// collapsing a short arc removes intervals, fusing a short arc removes an extraordinary node, and
-// nothing ever adds any (samples are taken once). A round that does neither ends the loop. Arcs
-// that nothing touched keep their chain, so their labels stay compatible and are not solved again.
+// again until nothing changes. The paper argues that every round removes a segment, but resampling
+// can add segments. Here a round that changes anything drops a stretch of an arc, collapses a short
+// arc, or fuses two arcs at a node, and none of these can go on for ever; a round that does none of
+// them ends the loop. Arcs that nothing touched keep their chain, so their labels stay compatible
+// and are not solved again. Refilling may follow, a fixed number of times.
 
 #include "adaptation/adaptation.h"
 

@@ -178,7 +178,7 @@ InitialState make_initial_state(const LoadedMesh& mesh, const SurfaceQueries& qu
         tbb::parallel_for(0, count, [&](int a) {
             WorkingArc& arc = state.network.arcs[a];
             arc.nodes = initial.arcs[a].nodes;
-            arc.points = densify(initial.arcs[a].samples, sample_spacing(scale)).points;
+            arc.points = densify(initial.arcs[a].samples, sample_spacing(scale));
             arc.points.front() = initial.nodes[arc.nodes[0]].position;
             arc.points.back() = initial.nodes[arc.nodes[1]].position;
             arc.origins.assign(arc.points.size() - 1, a);

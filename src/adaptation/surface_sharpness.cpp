@@ -11,6 +11,8 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "adaptation/point_distance.h"
+
 namespace fcn {
 
 namespace {
@@ -26,13 +28,6 @@ double length_in_ball(const Vec3& a, const Vec3& b, const Vec3& center, double r
     if (squared <= 0) return 0;
     const double half = std::sqrt(squared);
     return std::max(0.0, std::min(length, along + half) - std::max(0.0, along - half));
-}
-
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 d = b - a;
-    const double squared = d.squaredNorm();
-    const double t = squared > 0 ? std::clamp((p - a).dot(d) / squared, 0.0, 1.0) : 0.0;
-    return (p - a - t * d).norm();
 }
 
 }  // namespace

@@ -4,18 +4,9 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "adaptation/point_distance.h"
+
 namespace fcn {
-
-namespace {
-
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 d = b - a;
-    const double squared = d.squaredNorm();
-    const double t = squared > 0 ? std::clamp((p - a).dot(d) / squared, 0.0, 1.0) : 0.0;
-    return (p - a - t * d).norm();
-}
-
-}  // namespace
 
 ThinWallTest::ThinWallTest(const Mesh& mesh, const SurfaceQueries& queries, double surface_distance,
                            double touch)

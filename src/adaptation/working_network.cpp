@@ -175,18 +175,17 @@ std::vector<int> corners_to_keep(const std::vector<ArcSample>& samples, double s
 
 }  // namespace
 
-DenseSamples densify(const std::vector<ArcSample>& samples, double spacing) {
-    DenseSamples result;
+std::vector<Vec3> densify(const std::vector<ArcSample>& samples, double spacing) {
+    std::vector<Vec3> result;
     const std::vector<int> kept = corners_to_keep(samples, spacing);
-    result.points.push_back(samples.front().position);
+    result.push_back(samples.front().position);
     for (std::size_t k = 1; k < kept.size(); ++k) {
         const Vec3& a = samples[kept[k - 1]].position;
         const Vec3& b = samples[kept[k]].position;
         const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing)));
         for (int i = 1; i <= pieces; ++i) {
             const double t = static_cast<double>(i) / pieces;
-            result.points.push_back(i == pieces ? b : Vec3((1 - t) * a + t * b));
-            result.intervals.push_back(kept[k - 1]);
+            result.push_back(i == pieces ? b : Vec3((1 - t) * a + t * b));
         }
     }
     return result;

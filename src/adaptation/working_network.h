@@ -78,11 +78,7 @@ double sample_spacing(const ScaleInterval& scale);
 
 /// Dense samples at most `spacing` apart: the original corners (thinned where they are denser than
 /// a quarter of it and nearly straight) and points between them.
-struct DenseSamples {
-    std::vector<Vec3> points;
-    std::vector<int> intervals;  ///< per new interval: the original interval it lies in
-};
-DenseSamples densify(const std::vector<ArcSample>& samples, double spacing);
+std::vector<Vec3> densify(const std::vector<ArcSample>& samples, double spacing);
 
 /// Resamples every arc that needs it, in parallel; closed arcs are rotated to their best start.
 /// Closed arcs that cannot carry three segments are returned: the caller drops or pins them.
