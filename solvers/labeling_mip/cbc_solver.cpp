@@ -10,10 +10,16 @@
 // positive terms sum to at most 2^40 units (relative error 4.5e-13); above that, and for bounds of
 // unfinished runs, the bound is raised by 2^-40 of that sum plus one unit, so it never cuts off a
 // true optimum on account of rounding.
+//
+// Dying: left alone, CBC starts with Clp's "idiot" crash method, whose crossover reads outside of
+// its arrays on dense problems of ours (Clp 1.17.6, a segmentation fault in presolve). We ask for
+// the dual simplex, which is also faster here. A child that dies all the same is started once more
+// without presolve and preprocessing; what the first one had found stays.
 #include "labeling_mip/cbc_solver.h"
 
 #include <CbcEventHandler.hpp>
 #include <CbcModel.hpp>
+#include <ClpSolve.hpp>
 #include <OsiClpSolverInterface.hpp>
 #include <cmath>
 #include <cstring>
@@ -112,6 +118,7 @@ struct ChildLimits {
     double seconds = 0;  ///< 0 = none
     std::int64_t nodes = 0;
     double gap = 0;
+    bool is_careful = false;  ///< without presolve and preprocessing
 };
 
 void pass_start(const LinearModel& model, const Solution& start, CbcModel& cbc) {
@@ -134,6 +141,10 @@ void run_cbc(const LinearModel& model, const std::optional<Solution>& start,
              const ChildLimits& limits, const ChildProcess::Send& sender) {
     OsiClpSolverInterface lp;
     load(model, lp);
+    ClpSolve first_lp;
+    first_lp.setSolveType(ClpSolve::useDual);
+    if (limits.is_careful) first_lp.setPresolveType(ClpSolve::presolveOff);
+    lp.setSolveOptions(first_lp);
     CbcModel cbc(lp);
     CbcMain0(cbc);
     cbc.setLogLevel(0);
@@ -151,6 +162,10 @@ void run_cbc(const LinearModel& model, const std::optional<Solution>& start,
     }
     if (limits.nodes > 0) add("-maxNodes", std::to_string(limits.nodes));
     if (limits.gap > 0) add("-ratioGap", std::to_string(limits.gap));
+    if (limits.is_careful) {
+        add("-presolve", "off");
+        add("-preprocess", "off");
+    }
     words.emplace_back("-solve");
     words.emplace_back("-quit");
     std::vector<const char*> arguments;
@@ -177,9 +192,10 @@ void run_cbc(const LinearModel& model, const std::optional<Solution>& start,
 class CbcRun {
 public:
     CbcRun(const LabelingProblem& problem, const SolveOptions& options, std::int64_t node_limit,
-           RowStyle rows)
+           RowStyle rows, const CbcChildHook& in_child)
         : problem_(problem),
           options_(without_work_limit(options)),
+          in_child_(in_child),
           control_(options_),
           rows_(problem),
           model_(linear_model(problem, rows)),
@@ -193,22 +209,21 @@ public:
         start();
         if (is_infeasible_)
             return finish(problem_, kName, control_, std::nullopt, std::nullopt, true);
-        ChildLimits limits;
-        limits.nodes = nodes_;
-        limits.gap = options_.relative_gap;
-        if (options_.time_limit && !options_.clock) {
-            limits.seconds = std::max(0.01, 0.97 * control_.seconds_left() - 0.05);
+        bool has_verdict = false;
+        int attempts = 0;
+        while (!has_verdict && attempts < kMostAttempts && !control_.is_over()) {
+            has_verdict = run_child(attempts++);
         }
-        if (!control_.is_over()) {
-            ChildProcess child(
-                [&](const ChildProcess::Send& sender) { run_cbc(model_, best_, limits, sender); });
-            listen(child);
+        if (!has_verdict && !control_.is_over()) {
+            control_.end(StopReason::SolverFailed);
+            message_ = "CBC ended without a result";
         }
         if (best_ && bound_ < best_->value) bound_ = best_->value;
         const bool is_infeasible = is_infeasible_ && !best_;
         SolveResult result =
             finish(problem_, kName, control_, std::move(best_), bound_, is_infeasible);
         result.statistics["nodes"] = static_cast<double>(node_count_);
+        result.statistics["attempts"] = attempts;
         result.message = message_;
         return result;
     }
@@ -240,21 +255,34 @@ private:
         if (best_) control_.report(best_->value, std::nullopt);
     }
 
-    void listen(ChildProcess& child) {
+    /// True when CBC came to an end of its own or the run is over.
+    bool run_child(int attempt) {
+        ChildLimits limits;
+        limits.nodes = nodes_;
+        limits.gap = options_.relative_gap;
+        limits.is_careful = attempt > 0;
+        if (options_.time_limit && !options_.clock) {
+            limits.seconds = std::max(0.01, 0.97 * control_.seconds_left() - 0.05);
+        }
+        ChildProcess child([&](const ChildProcess::Send& sender) {
+            if (in_child_) in_child_(attempt);
+            run_cbc(model_, best_, limits, sender);
+        });
+        return listen(child);
+    }
+
+    bool listen(ChildProcess& child) {
         std::vector<std::uint8_t> message;
         bool has_verdict = false;
         while (true) {
             control_.check();
-            if (control_.is_over()) return;
+            if (control_.is_over()) return true;
             const double patience = options_.clock ? 0.02 : std::min(0.05, control_.seconds_left());
             const auto event = child.wait(patience, message);
             if (event == ChildProcess::Event::Ended) break;
             if (event == ChildProcess::Event::Message) has_verdict = handle(message) || has_verdict;
         }
-        if (!child.has_succeeded() || !has_verdict) {
-            control_.end(StopReason::SolverFailed);
-            message_ = "CBC ended without a result";
-        }
+        return child.has_succeeded() && has_verdict;
     }
 
     /// True for the last word of the child.
@@ -316,9 +344,11 @@ private:
     }
 
     static constexpr Value kExactTotal = Value{1} << 40;
+    static constexpr int kMostAttempts = 2;
 
     const LabelingProblem& problem_;
     const SolveOptions options_;
+    const CbcChildHook& in_child_;
     RunControl control_;
     const RowSystem rows_;
     const LinearModel model_;
@@ -331,6 +361,7 @@ private:
 
 class CbcSolver final : public Solver {
 public:
+    explicit CbcSolver(CbcChildHook in_child) : in_child_(std::move(in_child)) {}
     std::string name() const override { return "cbc"; }
     std::string description() const override {
         return "CBC on the mixed-integer model, in a child process";
@@ -354,12 +385,17 @@ public:
                 std::clamp<std::int64_t>(*options.work_limit / kTicksPerNode, 1, kMostNodes);
             nodes = nodes > 0 ? std::min(nodes, by_work) : by_work;
         }
-        return CbcRun(problem, options, nodes, rows).run();
+        return CbcRun(problem, options, nodes, rows, in_child_).run();
     }
+
+private:
+    CbcChildHook in_child_;
 };
 
 }  // namespace
 
-std::shared_ptr<const Solver> make_cbc_solver() { return std::make_shared<CbcSolver>(); }
+std::shared_ptr<const Solver> make_cbc_solver(CbcChildHook in_child) {
+    return std::make_shared<CbcSolver>(std::move(in_child));
+}
 
 }  // namespace labeling

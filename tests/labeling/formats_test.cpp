@@ -151,6 +151,22 @@ TEST(Files, AreChosenByNameCompressedAndWrittenAtomically) {
     EXPECT_THROW(write_problem(p, folder / "none/p.lab"), InputError);
 }
 
+TEST(Files, LinksAndDevicesStayWhatTheyAre) {
+    std::mt19937_64 engine(3);
+    const LabelingProblem p = curve_bundle(engine, {});
+    Folder folder;
+    write_problem(p, folder / "target.lab");
+    std::filesystem::resize_file(folder / "target.lab", 0);
+    std::filesystem::create_symlink("target.lab", folder / "link.lab");
+    write_problem(p, folder / "link.lab");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.lab"));
+    EXPECT_EQ(labeling::read_problem(folder / "target.lab").hash(), p.hash());
+    std::filesystem::create_symlink("/dev/null", folder / "null.lab");
+    write_problem(p, folder / "null.lab");
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+    EXPECT_EQ(folder.file_count(), 3u);
+}
+
 TEST(Files, TruncatedGzipIsAnError) {
     std::mt19937_64 engine(4);
     Folder folder;
