@@ -1,6 +1,7 @@
 // Free MPS. Minimises the negated objective: OBJSENSE is not understood everywhere. The header
 // reads `NAME x FREE` because CBC takes the file for fixed MPS otherwise.
 #include <unordered_map>
+#include <unordered_set>
 
 #include "labeling/errors.h"
 #include "labeling/formats_detail.h"
@@ -53,6 +54,9 @@ private:
                 const std::int64_t value = reader_.integer(k + 1, "right-hand side");
                 const std::int32_t row = find_row(words[k]);
                 if (row < 0) reader_.fail("a constant in the objective is not supported");
+                if (!has_side_.insert(row).second) {
+                    reader_.fail("row '" + model_.rows[row].name + "' has two right-hand sides");
+                }
                 model_.rows[row].row.right_hand_side = value;
             }
         } else if (section_ == "BOUNDS") {
@@ -105,6 +109,7 @@ private:
             columns_[name] = static_cast<std::int32_t>(model_.columns.size());
             model_.columns.push_back({name, 0, is_integer_});
             is_bounded_.push_back(0);
+            has_objective_ = false;
         }
         const auto column = static_cast<std::int32_t>(model_.columns.size() - 1);
         for (std::size_t k = 1; k < words.size(); k += 2) {
@@ -114,8 +119,11 @@ private:
                 model_.rows[row].row.terms.push_back({value, column});
             } else if (value < -kMaxTotal || value > kMaxTotal) {
                 reader_.fail("the objective coefficient exceeds 2^53");
+            } else if (has_objective_) {
+                reader_.fail("column '" + name + "' is twice in the objective");
             } else {
                 model_.columns[column].objective = -value;
+                has_objective_ = true;
             }
         }
     }
@@ -144,7 +152,9 @@ private:
     NamedModel model_;
     std::unordered_map<std::string, std::int32_t> rows_, columns_;
     std::vector<std::uint8_t> is_bounded_;
+    std::unordered_set<std::int32_t> has_side_;  ///< rows
     bool is_integer_ = false;
+    bool has_objective_ = false;  ///< the current column
 };
 
 }  // namespace

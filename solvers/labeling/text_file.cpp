@@ -3,6 +3,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -14,20 +15,22 @@ namespace {
 
 constexpr unsigned kChunk = 1U << 18;
 
-bool is_gzip_name(const std::filesystem::path& file) { return file.extension() == ".gz"; }
+namespace fs = std::filesystem;
 
-void write_plain(const std::filesystem::path& file, std::string_view text) {
+bool is_gzip_name(const fs::path& file) { return file.extension() == ".gz"; }
+
+// Both write to `file` and name `shown` in their complaints.
+
+void write_plain(const fs::path& file, std::string_view text, const std::string& shown) {
     std::ofstream out(file, std::ios::binary | std::ios::trunc);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.close();
-    if (!out) throw InputError(file.string() + ": cannot write: " + std::strerror(errno));
+    if (!out) throw InputError(shown + ": cannot write: " + std::strerror(errno));
 }
 
-void write_gzip(const std::filesystem::path& file, std::string_view text) {
+void write_gzip(const fs::path& file, std::string_view text, const std::string& shown) {
     const gzFile out = gzopen(file.c_str(), "wb9");
-    if (out == nullptr) {
-        throw InputError(file.string() + ": cannot write: " + std::strerror(errno));
-    }
+    if (out == nullptr) throw InputError(shown + ": cannot write: " + std::strerror(errno));
     bool is_good = true;
     while (!text.empty() && is_good) {
         const unsigned size = static_cast<unsigned>(std::min<std::size_t>(text.size(), kChunk));
@@ -35,7 +38,16 @@ void write_gzip(const std::filesystem::path& file, std::string_view text) {
         text.remove_prefix(size);
     }
     is_good = gzclose_w(out) == Z_OK && is_good;
-    if (!is_good) throw InputError(file.string() + ": cannot write compressed data");
+    if (!is_good) throw InputError(shown + ": cannot write compressed data");
+}
+
+/// Hidden, in the same folder, and no other writer's.
+fs::path temporary_beside(const fs::path& file) {
+    static std::atomic<unsigned> serial{0};
+    std::string name(1, '.');
+    name.append(file.filename().string()).append(1, '.').append(std::to_string(::getpid()));
+    name.append(1, '.').append(std::to_string(serial++)).append(".part");
+    return file.parent_path() / name;
 }
 
 }  // namespace
@@ -63,21 +75,27 @@ std::string read_text_file(const std::filesystem::path& file) {
     return text;
 }
 
-void write_text_file(const std::filesystem::path& file, std::string_view text) {
-    std::filesystem::path temporary = file;
-    temporary += ".tmp" + std::to_string(::getpid());
+void write_text_file(const fs::path& file, std::string_view text) {
+    const std::string shown = file.string();
+    const auto write = is_gzip_name(file) ? write_gzip : write_plain;
     std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (fs::is_directory(status)) throw InputError(shown + ": is a directory");
+    // A pipe or device cannot be replaced by a rename, a link must not be.
+    if (fs::exists(status) && !fs::is_regular_file(status)) return write(file, text, shown);
+    const fs::path target = fs::is_symlink(file, error) ? fs::weakly_canonical(file) : file;
+    const fs::path temporary = temporary_beside(target);
     try {
-        is_gzip_name(file) ? write_gzip(temporary, text) : write_plain(temporary, text);
+        write(temporary, text, shown);
     } catch (...) {
-        std::filesystem::remove(temporary, error);
+        fs::remove(temporary, error);
         throw;
     }
-    std::filesystem::rename(temporary, file, error);
+    fs::rename(temporary, target, error);
     if (error) {
         const std::string reason = error.message();
-        std::filesystem::remove(temporary, error);
-        throw InputError(file.string() + ": cannot write: " + reason);
+        fs::remove(temporary, error);
+        throw InputError(shown + ": cannot write: " + reason);
     }
 }
 

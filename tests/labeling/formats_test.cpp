@@ -124,6 +124,10 @@ TEST(MpsAndLp, NameTheLineOfMistakes) {
               "in:2: row type 'Q' is not N, L, G or E");
     EXPECT_EQ(parse_error("COLUMNS\n b1 nowhere 1\n", ProblemFormat::Mps),
               "in:2: unknown row 'nowhere'");
+    EXPECT_EQ(parse_error("ROWS\n N v\n L a\nRHS\n R a 1\n R a 2\n", ProblemFormat::Mps),
+              "in:6: row 'a' has two right-hand sides");
+    EXPECT_EQ(parse_error("ROWS\n N v\nCOLUMNS\n b1 v 1\n b1 v 2\n", ProblemFormat::Mps),
+              "in:5: column 'b1' is twice in the objective");
     EXPECT_EQ(parse_error("", ProblemFormat::Lp), "in: no End: the file is cut short");
     EXPECT_EQ(parse_error("Minimize\n", ProblemFormat::Lp), "in:1: expected 'Maximize'");
     EXPECT_EQ(

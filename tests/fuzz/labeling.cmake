@@ -1,0 +1,3 @@
+# The readers of labeling problems and solutions: every input goes to all of them.
+scalefcn_add_fuzz_target(labeling_reader_fuzz SOURCES labeling_reader_fuzz.cpp LINK labeling
+                         RUNS 20000)

@@ -1,0 +1,4 @@
+c a solution
+v 10
+1
+5
