@@ -159,6 +159,7 @@ private:
     }
 
     std::size_t add_cliques(const CliqueCutOptions& options) {
+        if (!options_.techniques.clique_cuts) return 0;
         const std::int64_t before = separator_.work();
         std::size_t added = 0;
         for (Cut& cut : separator_.separate(relaxation_.x(), options)) {
@@ -170,6 +171,7 @@ private:
     }
 
     std::size_t add_triples() {
+        if (!options_.techniques.triple_cuts) return 0;
         const std::int64_t before = triples_.work() + separator_.work();
         std::size_t added = 0;
         for (Cut& cut : triples_.separate(relaxation_.x(), separator_, propagator_)) {
@@ -181,6 +183,7 @@ private:
     }
 
     std::size_t add_gomory() {
+        if (!options_.techniques.gomory_cuts) return 0;
         std::int64_t work = 0;
         std::size_t added = 0;
         for (Cut& cut : gomory_cuts(relaxation_, {}, work)) {
@@ -213,7 +216,7 @@ private:
 
     /// Fixes what the exact bound allows; false when that leaves no better solution.
     bool fix_by_bounds(bool is_root) {
-        if (best_value_ == kNoValue) return true;
+        if (best_value_ == kNoValue || !options_.techniques.fixing) return true;
         for (bool is_new = true; is_new;) {
             is_new = false;
             for (Label i = 0; i < problem_.label_count(); ++i) {
@@ -237,7 +240,7 @@ private:
 
     /// The rest as smaller problems, if that pays; true when it did the job.
     bool hand_back() {
-        if (!options_.solve_rest) return false;
+        if (!options_.solve_rest || !options_.techniques.restarts) return false;
         Decomposer decomposer(problem_, rows_);
         const auto parts = decomposer.parts(propagator_);
         std::size_t largest = 0;
@@ -308,6 +311,7 @@ private:
 
     /// Completes the rounded LP solution greedily and improves it a little.
     void polish() {
+        if (!options_.techniques.heuristics) return;
         std::vector<std::int8_t> start(problem_.label_count(), -1);
         const auto x = relaxation_.x();
         for (Label i = 0; i < problem_.label_count(); ++i) {
@@ -494,6 +498,7 @@ private:
         }
         std::stable_sort(candidates.begin(), candidates.end(),
                          [](const auto& a, const auto& b) { return a.first > b.first; });
+        if (!options_.techniques.strong_branching) return candidates[0].second;
         return strong_branch(node, basis, candidates, is_settled);
     }
 

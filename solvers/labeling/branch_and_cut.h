@@ -9,6 +9,7 @@
 #include "labeling/problem.h"
 #include "labeling/run_control.h"
 #include "labeling/solution.h"
+#include "labeling/techniques.h"
 #include "labeling/tree_search.h"
 
 namespace labeling {
@@ -16,6 +17,7 @@ namespace labeling {
 struct BranchAndCutOptions {
     LpFactory lp;
     std::uint64_t seed = 1;
+    Techniques techniques;
     /// Called with every better value (of the whole problem given) and bound.
     std::function<void(std::optional<Value>, std::optional<Value>)> report;
     /// Solves what is left when fixing by bounds has shrunk or split the problem at the root; gets

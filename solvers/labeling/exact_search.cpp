@@ -33,6 +33,7 @@ public:
         : problem_(problem),
           options_(options),
           exact_(exact),
+          techniques_(techniques_of(options, exact.name)),
           control_(options, exact.default_work_limit),
           rows_(problem),
           propagator_(problem, rows_),
@@ -118,6 +119,7 @@ private:
         PartSearchOptions search;
         search.lp = exact_.lp;
         search.seed = options_.seed;
+        search.techniques = techniques_;
         search.report = [&part, this](std::optional<Value> value, std::optional<Value> bound) {
             if (value) part.value = std::max(part.value, *value);
             if (bound) part.bound = std::min(part.bound, *bound);
@@ -152,6 +154,7 @@ private:
     const LabelingProblem& problem_;
     const SolveOptions& options_;
     const ExactSearchOptions& exact_;
+    const Techniques techniques_;
     RunControl control_;
     const RowSystem rows_;
     Propagator propagator_;
@@ -170,7 +173,6 @@ public:
     bool is_exact() const override { return true; }
     SolveResult solve(const LabelingProblem& problem, const SolveOptions& options) const override {
         require_valid_options(problem, options);
-        require_known_extras(options, name(), {});
         return ExactSearch(problem, options, options_).run();
     }
 

@@ -11,8 +11,6 @@
 namespace labeling {
 namespace {
 
-constexpr Label kTinyPart = 24;
-constexpr Label kSmallPart = 60;
 constexpr std::int64_t kSmallTreeTicks = 20000;
 constexpr std::int64_t kSearchTicksPerLabel = 1000;
 /// Beyond this many columns the first LP alone would take minutes.
@@ -30,6 +28,7 @@ TreeResult by_tree(const LabelingProblem& problem, const std::optional<Solution>
 
 PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t> labels,
                      RunControl& control, const PartSearchOptions& options) {
+    if (!options.techniques.heuristics) return {};
     const RowSystem rows(problem);
     GreedyOptions greedy;
     greedy.start = labels;
@@ -37,7 +36,8 @@ PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t
     PartStart start{std::move(found.solution), found.is_infeasible};
     if (!start.solution) return start;
     if (options.report) options.report(start.solution->value, std::nullopt);
-    if (problem.label_count() <= kTinyPart || control.should_stop()) return start;
+    if (problem.label_count() <= options.techniques.tree_size || control.should_stop())
+        return start;
     RunControl::Cap cap(control, kSearchTicksPerLabel * problem.label_count());
     LocalSearchOptions search;
     search.seed = options.seed;
@@ -54,11 +54,12 @@ TreeResult prove_part(const LabelingProblem& problem, const std::optional<Soluti
                       BranchAndCutStatistics* statistics) {
     const std::size_t columns =
         static_cast<std::size_t>(problem.label_count()) + problem.bonus_count();
-    if (!options.lp || problem.label_count() <= kTinyPart || columns > kMostColumns) {
+    const Label tree_size = options.techniques.tree_size;
+    if (!options.lp || problem.label_count() <= tree_size || columns > kMostColumns) {
         return by_tree(problem, start, control, statistics);
     }
     std::optional<Solution> best = start;
-    if (problem.label_count() <= kSmallPart) {
+    if (2 * problem.label_count() <= 5 * tree_size) {
         RunControl::Cap cap(control, kSmallTreeTicks);
         TreeResult result = by_tree(problem, start, control, statistics);
         if (result.is_closed(kNoValue) || control.is_over()) return result;
@@ -67,6 +68,7 @@ TreeResult prove_part(const LabelingProblem& problem, const std::optional<Soluti
     BranchAndCutOptions cut;
     cut.lp = options.lp;
     cut.seed = options.seed;
+    cut.techniques = options.techniques;
     cut.report = options.report;
     cut.solve_rest = [&](const LabelingProblem& rest, const std::optional<Solution>& rest_start) {
         PartSearchOptions quiet = options;

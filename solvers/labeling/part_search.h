@@ -8,6 +8,7 @@
 #include "labeling/lp_engine.h"
 #include "labeling/problem.h"
 #include "labeling/run_control.h"
+#include "labeling/techniques.h"
 #include "labeling/tree_search.h"
 
 namespace labeling {
@@ -15,6 +16,7 @@ namespace labeling {
 struct PartSearchOptions {
     LpFactory lp;  ///< empty: clique bounds alone
     std::uint64_t seed = 1;
+    Techniques techniques;
     /// Better values and bounds of the part as they are found; may be empty.
     std::function<void(std::optional<Value>, std::optional<Value>)> report;
 };
@@ -24,8 +26,8 @@ struct PartStart {
     bool is_infeasible = false;  ///< proven
 };
 
-/// Greedy, then local search as long as the size justifies. `labels`: one entry per label, 1, 0 or
-/// -1 (unknown), or empty.
+/// Greedy, then local search as long as the size justifies; nothing without heuristics. `labels`:
+/// one entry per label, 1, 0 or -1 (unknown), or empty.
 PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t> labels,
                      RunControl& control, const PartSearchOptions& options);
 

@@ -61,7 +61,6 @@ public:
     /// Exact bound under the fixings at the time of solve(); a very large number when the solver
     /// failed, kNoValue when infeasibility was proven.
     Value bound() const { return bound_; }
-    double objective() const { return engine_->objective() * scale_; }
     /// What forcing the (free) column away from the side it leans to does to the bound:
     /// fixing to 1 (value) or 0 proves a bound of this or less.
     Value bound_if(std::int32_t column, bool value) const;

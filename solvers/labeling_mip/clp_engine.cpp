@@ -56,6 +56,7 @@ public:
 
     Outcome solve(std::int64_t max_iterations) override {
         flush_pending();
+        if (simplex_.numberRows() == 0) return solve_without_rows();
         constexpr std::int64_t kMost = 1'000'000'000;
         simplex_.setNumberIterations(0);
         simplex_.setMaximumIterations(static_cast<int>(std::min(max_iterations, kMost)));
@@ -79,7 +80,6 @@ public:
     }
 
     std::int64_t iterations() const override { return iterations_; }
-    double objective() const override { return -simplex_.rawObjectiveValue(); }
     std::span<const double> columns() const override {
         return {simplex_.primalColumnSolution(),
                 static_cast<std::size_t>(simplex_.numberColumns())};
@@ -169,6 +169,22 @@ private:
         pending_columns_.clear();
         pending_coefficients_.clear();
         pending_starts_.assign(1, 0);
+    }
+
+    /// Clp crashes on a problem without rows when it is asked to keep its factorization.
+    Outcome solve_without_rows() {
+        if (simplex_.statusArray() == nullptr) simplex_.createStatus();
+        for (int c = 0; c < simplex_.numberColumns(); ++c) {
+            const bool is_up = simplex_.getObjCoefficients()[c] < 0;
+            simplex_.primalColumnSolution()[c] =
+                is_up ? simplex_.getColUpper()[c] : simplex_.getColLower()[c];
+            simplex_.dualColumnSolution()[c] = simplex_.getObjCoefficients()[c];
+            simplex_.setColumnStatus(c,
+                                     is_up ? ClpSimplex::atUpperBound : ClpSimplex::atLowerBound);
+        }
+        iterations_ = 0;
+        copy_results();
+        return Outcome::Optimal;
     }
 
     void copy_results() {

@@ -68,6 +68,44 @@ LabelingProblem random_problem(std::mt19937_64& engine, int most_labels) {
     return builder.build();
 }
 
+LabelingProblem frustrated_problem(std::mt19937_64& engine, int labels) {
+    ProblemBuilder builder;
+    const auto n = static_cast<Label>(labels);
+    for (Label i = 0; i < n; ++i) builder.add_label(pick(engine, 5, 9));
+    const std::int64_t density = pick(engine, 15, 50);
+    const std::int64_t bonus_density = pick(engine, 20, 90);
+    const Value bonus = pick(engine, 0, 1) == 0 ? 6 : 40;
+    for (Label i = 0; i < n; ++i) {
+        for (Label j = i + 1; j < n; ++j) {
+            if (pick(engine, 0, 99) < density) {
+                builder.add_conflict(i, j);
+            } else if (pick(engine, 0, 99) < bonus_density) {
+                builder.add_bonus(i, j, pick(engine, bonus - 2, bonus));
+            }
+        }
+    }
+    const auto some_labels = [&](std::size_t count) {
+        std::set<Label> members;
+        while (members.size() < count) members.insert(static_cast<Label>(pick(engine, 0, n - 1)));
+        return members;
+    };
+    for (std::int64_t k = pick(engine, 0, n); k > 0; --k) {
+        Rule triple{Relation::LessEqual, 2, {}};
+        for (Label i : some_labels(3)) triple.terms.push_back({1, i});
+        builder.add_rule(triple);
+    }
+    for (std::int64_t k = pick(engine, 0, 2); k > 0; --k) {
+        const std::size_t size = pick(engine, 0, 2) == 0 ? 4 : 3;
+        Rule star{Relation::LessEqual, 2, {}};
+        for (Label i : some_labels(size)) star.terms.push_back({1, i});
+        const Label keep = builder.add_label(-pick(engine, 0, 10));
+        star.terms.push_back({-static_cast<std::int32_t>(size - 2), keep});
+        builder.add_rule(star);
+        builder.add_conflict(keep, static_cast<Label>(pick(engine, 0, n - 1)));
+    }
+    return builder.build();
+}
+
 LabelingProblem curve_bundle(std::mt19937_64& engine, const BundleOptions& options) {
     ProblemBuilder builder;
     auto at = [&](int curve, int segment) {

@@ -19,6 +19,10 @@ std::int64_t pick(std::mt19937_64& engine, std::int64_t low, std::int64_t high);
 /// Any small problem: conflicts, bonuses and rules of every kind and sign; often infeasible.
 LabelingProblem random_problem(std::mt19937_64& engine, int most_labels);
 
+/// A small problem whose linear relaxation is far from integral: many conflicts and bonuses of
+/// nearly equal worth, triples b_i + b_j + b_k <= 2 and stars with a keep-label. Always feasible.
+LabelingProblem frustrated_problem(std::mt19937_64& engine, int labels);
+
 struct BundleOptions {
     int curves = 6;
     int segments = 8;        ///< per curve

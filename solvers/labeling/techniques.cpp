@@ -1,0 +1,47 @@
+#include "labeling/techniques.h"
+
+#include <array>
+
+#include "labeling/errors.h"
+#include "labeling/run_control.h"
+
+namespace labeling {
+namespace {
+
+struct Switch {
+    const char* key;
+    bool Techniques::*field;
+};
+
+constexpr std::array kSwitches{
+    Switch{"heuristics", &Techniques::heuristics},
+    Switch{"clique-cuts", &Techniques::clique_cuts},
+    Switch{"triple-cuts", &Techniques::triple_cuts},
+    Switch{"gomory-cuts", &Techniques::gomory_cuts},
+    Switch{"fixing", &Techniques::fixing},
+    Switch{"restarts", &Techniques::restarts},
+    Switch{"strong-branching", &Techniques::strong_branching},
+};
+
+}  // namespace
+
+Techniques techniques_of(const SolveOptions& options, std::string_view solver) {
+    require_known_extras(options, solver,
+                         {"tree-size", "heuristics", "clique-cuts", "triple-cuts", "gomory-cuts",
+                          "fixing", "restarts", "strong-branching"});
+    Techniques techniques;
+    for (const Switch& s : kSwitches) {
+        const auto it = options.extra.find(s.key);
+        if (it == options.extra.end()) continue;
+        if (it->second != "on" && it->second != "off") {
+            throw InputError("option " + it->first + ": '" + it->second + "' is not on or off");
+        }
+        techniques.*s.field = it->second == "on";
+    }
+    constexpr std::int64_t kMost = 1'000'000;
+    techniques.tree_size =
+        static_cast<Label>(extra_integer(options, "tree-size", techniques.tree_size, 0, kMost));
+    return techniques;
+}
+
+}  // namespace labeling

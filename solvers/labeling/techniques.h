@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string_view>
+
+#include "labeling/problem.h"
+#include "labeling/solver.h"
+
+namespace labeling {
+
+/// What the exact solvers use. Every field is an extra option of the same name with '-' for '_':
+/// switches take on or off. Whatever is off, answers stay exact.
+struct Techniques {
+    /// Parts of up to this many labels are left to the depth-first tree; parts of up to 2.5 times
+    /// as many get a small allowance of it before branch-and-cut. 0: branch-and-cut for all.
+    Label tree_size = 24;
+    /// Greedy and local search before and inside of branch-and-cut; a warm start needs them.
+    bool heuristics = true;
+    bool clique_cuts = true;       ///< separated ones; those that make the model complete stay
+    bool triple_cuts = true;       ///< triple_cuts.h
+    bool gomory_cuts = true;       ///< gomory_cuts.h
+    bool fixing = true;            ///< of labels by the bounds of their reduced costs
+    bool restarts = true;          ///< after fixing at the root
+    bool strong_branching = true;  ///< off: the most fractional label
+};
+
+/// Throws InputError naming a value that is not allowed, or an extra option that is none of these.
+Techniques techniques_of(const SolveOptions& options, std::string_view solver);
+
+}  // namespace labeling
