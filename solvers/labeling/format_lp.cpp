@@ -1,6 +1,7 @@
 // CPLEX LP: Maximize, Subject To, Bounds, Binary, End; lines of at most about 200 characters, since
 // some readers have a limit. Every label appears in the objective, also with 0, which fixes the
-// order of the columns; a rule without terms is written as 0 times the first label.
+// order of the columns; a rule without terms is written as 0 times the first label. GLPK takes no
+// empty section: a problem without rows gets a trivial one named `none`, which reading drops.
 #include <unordered_map>
 
 #include "labeling/errors.h"
@@ -11,6 +12,7 @@ namespace labeling::detail {
 namespace {
 
 constexpr std::size_t kLineLength = 200;
+constexpr std::string_view kNoRow = "none";
 
 enum class Section { None, Objective, Rows, Bounds, Binary, End };
 
@@ -27,6 +29,9 @@ public:
             for (position_ = 0; position_ < words.size();) word();
         }
         if (section_ != Section::End) throw InputError(source_ + ": no End: the file is cut short");
+        std::erase_if(model_.rows, [](const NamedModel::Row& row) {
+            return row.name == kNoRow && row.row.terms.empty() && row.row.right_hand_side == 0;
+        });
         return problem_from_model(model_, source_);
     }
 
@@ -200,7 +205,8 @@ std::string format_lp(const LinearModel& model) {
                     std::to_string(row.right_hand_side));
         writer.end();
     }
-    writer.begin("Bounds\n");
+    if (model.rows.empty()) writer.begin(" none: + 0 b1 <= 0\n");
+    if (!model.bonuses.empty()) writer.begin("Bounds\n");
     for (std::int32_t c = model.label_count; c < model.column_count(); ++c) {
         writer.begin(" " + model.column_name(c) + " <= 1\n");
     }
