@@ -18,6 +18,8 @@ namespace {
 constexpr double kSharpnessSpacing = 1.0 / 5;
 /// Smooth networks are not blown up by a median of almost nothing (radians).
 constexpr double kSmallestMedian = 0.05;
+/// Points this close to the surface (in diagonals) keep their coordinates.
+constexpr double kOnSurface = 1e-9;
 
 struct ArcMeasures {
     std::vector<double> turning, crease, curvature;
@@ -64,9 +66,21 @@ class Measurer {
 public:
     Measurer(const LoadedMesh& mesh, const SurfaceQueries& queries, const ScaleInterval& scale,
              const AdaptationOptions& options)
-        : mesh_(mesh.mesh), queries_(queries), scale_(scale), sharpness_(mesh.mesh) {
+        : mesh_(mesh.mesh),
+          queries_(queries),
+          scale_(scale),
+          on_surface_(kOnSurface * bounding_box(mesh.mesh).diagonal()),
+          sharpness_(mesh.mesh) {
         if (options.mode == AdaptationMode::Paper) {
             curvatures_ = principal_curvatures(mesh.mesh, {.threads = options.threads});
+        }
+    }
+
+    /// Straight pieces between samples of different faces leave the surface; brings them back.
+    void project(std::vector<Vec3>& points) const {
+        for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+            const ClosestPoint at = queries_.closest(points[k]);
+            if (at.distance > on_surface_) points[k] = at.position;
         }
     }
 
@@ -100,6 +114,7 @@ private:
     const Mesh& mesh_;
     const SurfaceQueries& queries_;
     const ScaleInterval& scale_;
+    double on_surface_;
     SurfaceSharpness sharpness_;
     PrincipalCurvatures curvatures_;
 };
@@ -181,6 +196,7 @@ InitialState make_initial_state(const LoadedMesh& mesh, const SurfaceQueries& qu
             arc.points = densify(initial.arcs[a].samples, sample_spacing(scale));
             arc.points.front() = initial.nodes[arc.nodes[0]].position;
             arc.points.back() = initial.nodes[arc.nodes[1]].position;
+            measurer.project(arc.points);
             arc.origins.assign(arc.points.size() - 1, a);
             arc.is_pinned = initial.arcs[a].pin == Pin::Keep;
             measures[a] = measurer.measure(arc.points);

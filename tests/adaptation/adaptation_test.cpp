@@ -392,6 +392,31 @@ TEST(Adaptation, ThinWallsAreExemptOnlyWhenAsked) {
     EXPECT_TRUE(check(strict.network, options).is_conforming());
 }
 
+TEST(Adaptation, ArcsThatCutThroughASphereComeBackToItsSurface) {
+    ModelOptions model_options;
+    model_options.resolution = 0.1;
+    const LoadedMesh mesh = make_model("sphere", model_options);
+    const SurfaceQueries queries(mesh.mesh);
+    const Vec3 center = (bounding_box(mesh.mesh).min + bounding_box(mesh.mesh).max) / 2;
+    // Samples on the surface, 45 degrees apart: the straight pieces run inside.
+    FeatureCurveNetwork network;
+    NetworkArc arc;
+    for (int k = 0; k <= 4; ++k) {
+        const double angle = k * std::numbers::pi / 4;
+        const Vec3 direction(std::cos(angle), std::sin(angle), 0.3);
+        const ClosestPoint at = queries.closest(center + 10 * direction);
+        arc.samples.push_back({at.position, at.surface});
+        if (k % 4 == 0) network.nodes.push_back({at.position, at.surface});
+    }
+    arc.nodes = {0, 1};
+    network.arcs.push_back(arc);
+    AdaptationOptions options = options_at(0.1 * bounding_box(mesh.mesh).diagonal());
+    const AdaptationResult result = adapt_network(mesh, network, options);
+    ASSERT_GT(result.network.segments.size(), 3u);
+    EXPECT_TRUE(validate(result.network, mesh.mesh).empty());
+    EXPECT_TRUE(check(result.network, options, &mesh.mesh).is_conforming());
+}
+
 TEST(Adaptation, PaperModeEndsAndSaysWhatRemains) {
     const LoadedMesh mesh = make_model("skyscraper");
     AdaptationOptions options = options_at(0.03 * bounding_box(mesh.mesh).diagonal());
