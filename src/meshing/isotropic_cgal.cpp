@@ -3,6 +3,12 @@
 // protected; face labels travel as CGAL's patch ids. Vertices are projected to the surface as it
 // came in, not to the mesh handed over, whose curves already cut their corners; a projection that
 // lands on a sheet facing the other way (a thin wall) looks along the normal for its own sheet.
+//
+// Splits, collapses and flips are CGAL's. Two things it does not survive. A closed part smaller
+// than the edge length collapses beyond the tetrahedron, and its connectivity breaks: parts of less
+// than two edge lengths are left as they are. And its tangential relaxation reads outside its
+// arrays at a vertex all of whose faces are degenerate: that step (uniform Laplacian in the tangent
+// plane, halved until no face turns over) is done here, round by round.
 #include "meshing/isotropic_cgal.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -25,6 +31,9 @@ using Edge = SurfaceMesh::Edge_index;
 using Face = SurfaceMesh::Face_index;
 namespace pmp = CGAL::Polygon_mesh_processing;
 namespace named = CGAL::parameters;
+
+constexpr double kSmallestPart = 2;         // diagonal of its box, in edge lengths
+constexpr double kSmallestStep = 1.0 / 50;  // of a relaxation that would turn faces over
 
 Vec3 to_vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
 Point to_point(const Vec3& p) { return {p[0], p[1], p[2]}; }
@@ -67,6 +76,7 @@ struct Subject {
     SurfaceMesh mesh;
     SurfaceMesh::Property_map<Edge, bool> is_constrained;
     SurfaceMesh::Property_map<Vertex, bool> is_fixed;
+    SurfaceMesh::Property_map<Vertex, bool> is_in_small_part;
     SurfaceMesh::Property_map<Face, int> label;
     std::vector<std::array<Vertex, 2>> features;
 };
@@ -76,6 +86,7 @@ Subject make_subject(const MarkedMesh& marked) {
     SurfaceMesh& mesh = subject.mesh;
     subject.is_constrained = mesh.add_property_map<Edge, bool>("e:constrained", false).first;
     subject.is_fixed = mesh.add_property_map<Vertex, bool>("v:fixed", false).first;
+    subject.is_in_small_part = mesh.add_property_map<Vertex, bool>("v:small", false).first;
     subject.label = mesh.add_property_map<Face, int>("f:label", 0).first;
     for (const VertexHandle vertex : marked.mesh.vertices())
         mesh.add_vertex(to_point(marked.mesh.point(vertex)));
@@ -105,17 +116,109 @@ Subject make_subject(const MarkedMesh& marked) {
     return subject;
 }
 
+/// Marks the connected parts whose bounding box has a smaller diagonal; returns all other faces.
+std::vector<Face> set_small_parts_apart(Subject& subject, double smallest_diagonal) {
+    const SurfaceMesh& mesh = subject.mesh;
+    std::vector<Face> faces;
+    std::vector<bool> is_visited(mesh.number_of_vertices() + mesh.number_of_removed_vertices());
+    for (const Vertex start : mesh.vertices()) {
+        if (is_visited[start.idx()] || mesh.is_isolated(start)) continue;
+        is_visited[start.idx()] = true;
+        std::vector<Vertex> part{start};
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            for (const Vertex next : CGAL::vertices_around_target(part[i], mesh)) {
+                if (!is_visited[next.idx()]) part.push_back(next);
+                is_visited[next.idx()] = true;
+            }
+        }
+        BoundingBox box{to_vec(mesh.point(start)), to_vec(mesh.point(start))};
+        for (const Vertex vertex : part) {
+            box.min = box.min.cwiseMin(to_vec(mesh.point(vertex)));
+            box.max = box.max.cwiseMax(to_vec(mesh.point(vertex)));
+        }
+        const bool is_small = box.diagonal() < smallest_diagonal;
+        for (const Vertex vertex : part) subject.is_in_small_part[vertex] = is_small;
+    }
+    for (const Face face : mesh.faces())
+        if (!subject.is_in_small_part[mesh.target(mesh.halfedge(face))]) faces.push_back(face);
+    return faces;
+}
+
+/// Where the remesher may move a vertex: inside a patch.
+bool is_free(const Subject& subject, Vertex vertex) {
+    const SurfaceMesh& mesh = subject.mesh;
+    if (mesh.is_isolated(vertex) || subject.is_fixed[vertex]) return false;
+    if (subject.is_in_small_part[vertex]) return false;
+    for (const auto h : CGAL::halfedges_around_target(vertex, mesh))
+        if (mesh.is_border(mesh.edge(h)) || subject.is_constrained[mesh.edge(h)]) return false;
+    return true;
+}
+
+/// Whether no two consecutive faces around a vertex face each other; degenerate ones do not count,
+/// but one must not be.
+bool is_unfolded(const SurfaceMesh& mesh, Vertex vertex) {
+    std::vector<Kernel::Vector_3> normals;
+    for (const Face face : CGAL::faces_around_target(mesh.halfedge(vertex), mesh)) {
+        const Kernel::Vector_3 normal = pmp::compute_face_normal(face, mesh);
+        if (normal != CGAL::NULL_VECTOR) normals.push_back(normal);
+    }
+    for (std::size_t i = 0; i < normals.size(); ++i)
+        if (normals[i] * normals[(i + 1) % normals.size()] <= 0) return false;
+    return !normals.empty();
+}
+
+/// The steps are computed before the first vertex moves.
+void relax(Subject& subject) {
+    SurfaceMesh& mesh = subject.mesh;
+    const auto normals = mesh.add_property_map<Vertex, Kernel::Vector_3>("v:normal").first;
+    pmp::compute_vertex_normals(mesh, normals);
+    std::vector<std::pair<Vertex, Kernel::Vector_3>> steps;
+    for (const Vertex vertex : mesh.vertices()) {
+        if (!is_free(subject, vertex)) continue;
+        const Point& here = mesh.point(vertex);
+        Kernel::Vector_3 step = CGAL::NULL_VECTOR;
+        int count = 0;
+        for (const Vertex around : CGAL::vertices_around_target(vertex, mesh)) {
+            step += mesh.point(around) - here;
+            ++count;
+        }
+        step = step / count;
+        steps.emplace_back(vertex, step - (normals[vertex] * step) * normals[vertex]);
+    }
+    for (const auto& [vertex, step] : steps) {
+        const Point before = mesh.point(vertex);
+        double share = 1;
+        mesh.point(vertex) = before + step;
+        while (share > kSmallestStep && !is_unfolded(mesh, vertex)) {
+            share /= 2;
+            mesh.point(vertex) = share > kSmallestStep ? before + share * step : before;
+        }
+    }
+}
+
+void project(Subject& subject, const Projector& projector) {
+    for (const Vertex vertex : subject.mesh.vertices())
+        if (is_free(subject, vertex)) subject.mesh.point(vertex) = projector(vertex);
+}
+
 void run_cgal(Subject& subject, const SurfaceQueries& reference, const IsotropicOptions& options) {
     SurfaceMesh& mesh = subject.mesh;
     const Projector projector(mesh, reference, 2 * options.edge_length);
-    pmp::isotropic_remeshing(mesh.faces(), options.edge_length, mesh,
-                             named::number_of_iterations(static_cast<unsigned>(options.iterations))
-                                 .protect_constraints(options.is_protecting)
-                                 .edge_is_constrained_map(subject.is_constrained)
-                                 .vertex_is_constrained_map(subject.is_fixed)
-                                 .face_patch_map(subject.label)
-                                 .do_project(options.is_projecting)
-                                 .projection_functor(projector));
+    for (int iteration = 0; iteration < options.iterations; ++iteration) {
+        const std::vector<Face> faces =
+            set_small_parts_apart(subject, kSmallestPart * options.edge_length);
+        if (faces.empty()) return;
+        pmp::isotropic_remeshing(faces, options.edge_length, mesh,
+                                 named::number_of_iterations(1)
+                                     .number_of_relaxation_steps(0)
+                                     .protect_constraints(options.is_protecting)
+                                     .edge_is_constrained_map(subject.is_constrained)
+                                     .vertex_is_constrained_map(subject.is_fixed)
+                                     .face_patch_map(subject.label)
+                                     .do_project(false));
+        relax(subject);
+        if (options.is_projecting) project(subject, projector);
+    }
 }
 
 /// The handles of the two meshes correspond by `number`: CGAL's vertex to ours, -1 if gone.

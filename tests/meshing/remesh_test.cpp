@@ -43,6 +43,39 @@ TEST(Remesh, CubeKeepsItsEdgesAsSegments) {
     }
 }
 
+TEST(Remesh, PartsSmallerThanAnEdgeSurvive) {
+    constexpr double kLength = 0.2;
+    const std::uint64_t seed = 5;
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 engine(seed);
+    std::uniform_real_distribution<double> extent(0.01, 0.25);
+    const Mesh piece = test::cube(2).mesh;
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
+    constexpr int kParts = 60;
+    for (int part = 0; part < kParts; ++part) {
+        const int first = static_cast<int>(points.size());
+        const Vec3 size(extent(engine), extent(engine), extent(engine));
+        for (const VertexHandle vertex : piece.vertices())
+            points.emplace_back(size.cwiseProduct(piece.point(vertex)) + Vec3(part, 0, 0));
+        for (const FaceHandle face : piece.faces()) {
+            const auto v = face_vertices(piece, face);
+            triangles.push_back({first + v[0].idx(), first + v[1].idx(), first + v[2].idx()});
+        }
+    }
+    const LoadedMesh mesh = mesh_from_soup(points, triangles);
+    RemeshOptions options;
+    options.edge_length = kLength;
+    for (const bool is_protecting : {true, false}) {
+        options.is_protecting = is_protecting;
+        const RemeshResult result = remesh_with_cgal(mesh, {}, options);
+        EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
+        // 2 for each part: none has vanished or opened.
+        EXPECT_EQ(test::euler(result.mesh.mesh), 2 * kParts);
+        EXPECT_EQ(test::boundary_edges(result.mesh.mesh), 0U);
+    }
+}
+
 TEST(Remesh, CoarseCubeIsRefined) {
     const LoadedMesh mesh = test::cube(1);
     const FeatureCurveNetwork network =
