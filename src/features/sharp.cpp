@@ -9,12 +9,13 @@
 // the surroundings are noisy. Noisy is a place whose faces disagree with all their neighbours, and
 // clearly with all but one and with the neighbours' mean normal: on a clean surface, beside creases
 // and on coarsely meshed fillets as well, at least one of the three is small. Medians over some
-// thirty faces decide. There the edge counts only as far as the area-weighted mean normals of the
-// areas left and right of it (radius 2.5 edges) enclose the angle, too: an integral of normals over
-// an area depends on the area's border alone, so noise of single vertices fades fast, while a
-// crease keeps its angle. Tiny holes and ribs look like noise to that test; what tells them apart
-// is that their creases are regular: nine edges in a row, or a ring, that turn little and have the
-// same dihedral within 15%. Clean places and regular creases keep the plain dihedral.
+// thirty faces decide; a part that has fewer is never noisy. There the edge counts only as far as
+// the area-weighted mean normals of the areas left and right of it (radius 2.5 edges) enclose the
+// angle, too: an integral of normals over an area depends on the area's border alone, so noise of
+// single vertices fades fast, while a crease keeps its angle. Tiny holes and ribs look like noise
+// to that test; what tells them apart is that their creases are regular: nine edges in a row, or a
+// ring, that turn little and have the same dihedral within 15%. Clean places and regular creases
+// keep the plain dihedral.
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -81,6 +82,8 @@ std::array<double, 2> face_noise(const MeshArrays& arrays, int face) {
 bool is_noisy(const MeshArrays& arrays, int edge, double share = 1) {
     const std::vector<int> faces =
         grow(arrays, arrays.edge_faces[edge][0], kNoiseFaceCount, [](int) { return true; });
+    // A part of few faces is a polyhedron whose every face was meant.
+    if (static_cast<int>(faces.size()) < kNoiseFaceCount) return false;
     std::array<std::vector<double>, 2> levels;
     for (int f : faces) {
         const auto noise = face_noise(arrays, f);

@@ -56,6 +56,30 @@ TEST(Sharp, TwelveTrianglesOfACubeAreEnough) {
     EXPECT_EQ(network.nodes.size(), 8u);
 }
 
+// No face agrees with any neighbour, which is what noise looks like, too.
+TEST(Sharp, SpikesOnACubeAreAllCreases) {
+    std::vector<Vec3> points;
+    for (int k = 0; k < 8; ++k) points.emplace_back(k & 1, k >> 1 & 1, k >> 2 & 1);
+    std::vector<std::array<int, 3>> triangles;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
+        for (int side = 0; side < 2; ++side) {
+            Vec3 tip = Vec3::Constant(0.5);
+            tip[axis] = side == 0 ? -1.5 : 2.5;
+            points.push_back(tip);
+            const int top = static_cast<int>(points.size()) - 1, base = side << axis;
+            const std::array<int, 4> ring{base, base + u, base + u + v, base + v};
+            for (int i = 0; i < 4; ++i) {
+                const int a = ring[i], b = ring[(i + 1) % 4];
+                triangles.push_back(side == 1 ? std::array{a, b, top} : std::array{b, a, top});
+            }
+        }
+    }
+    const auto network = detect_sharp(mesh_from_soup(points, triangles));
+    EXPECT_EQ(network.arcs.size(), 36u);
+    EXPECT_EQ(network.nodes.size(), 14u);
+}
+
 TEST(Sharp, CylinderHasTwoClosedRims) {
     const LoadedMesh mesh = model("cylinder");
     const auto network = detect_sharp(mesh);
