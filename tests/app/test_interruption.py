@@ -30,7 +30,7 @@ def is_complete(path):
 
 def is_temporary(path):
     """The names under which files are written before they are renamed."""
-    return path.name.startswith(".") or ".tmp" in path.name
+    return path.name.startswith(".") and path.name.endswith(".part")
 
 
 class Interruption(ProgramTest):
