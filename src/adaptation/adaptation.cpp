@@ -195,8 +195,9 @@ private:
                                                             : AdaptationStatus::SolverFailed;
             return false;
         }
-        const bool has_changed =
+        bool has_changed =
             timed(iteration, "collapse", [&] { return apply(iteration, graph, conflicts, *kept); });
+        if (!has_changed && is_best()) has_changed = drop_idle_short_arcs(iteration);
         if (!has_changed) report_.status = AdaptationStatus::Converged;
         return has_changed;
     }
@@ -520,8 +521,9 @@ private:
         return has_changed || (joins > 0 && has_fresh);
     }
 
-    /// A short arc that is kept without being fused (its ends are far apart and no chain exists
-    /// between them) must not be the end of the loop. True when there was one.
+    /// An arc that no chain represents and that is kept all the same, its ends being far apart
+    /// (projection after a collapse can leave a gap in its samples), must not be the end of the
+    /// loop. True when there was one.
     bool drop_idle_short_arcs(const IterationReport& iteration) {
         bool has_dropped = false;
         for (int a = 0; a < static_cast<int>(network().arcs.size()); ++a) {

@@ -269,6 +269,52 @@ void find_edge_conflicts(const SegmentGraph& graph, const ScaleInterval& scale,
     }
 }
 
+/// Pins can force two of their own nodes closer than rmin. A feature that ends at such a node would
+/// take part in the violation, so it yields: in conflict with a pinned segment at the other node.
+void find_conflicts_at_forced_nodes(const SegmentGraph& graph, const ScaleInterval& scale,
+                                    const ConflictOptions& options, ConflictResult& result) {
+    std::vector<int> pinned_segment(graph.nodes.size(), -1);
+    for (int s = static_cast<int>(graph.segments.size()) - 1; s >= 0; --s) {
+        if (!graph.segments[s].is_pinned) continue;
+        for (int v : graph.segments[s].nodes) pinned_segment[v] = s;
+    }
+    std::vector<int> pinned;
+    std::vector<BoxGrid::Box> boxes;
+    for (int v = 0; v < static_cast<int>(graph.nodes.size()); ++v) {
+        if (pinned_segment[v] < 0) continue;
+        pinned.push_back(v);
+        boxes.push_back({graph.nodes[v].position, graph.nodes[v].position});
+    }
+    const BoxGrid grid(boxes, scale.rmin);
+    std::vector<int> near;
+    for (int u : pinned) {
+        const Vec3& position = graph.nodes[u].position;
+        const bool has_feature = std::ranges::any_of(
+            graph.incident[u], [&](int s) { return !graph.segments[s].is_pinned; });
+        if (!has_feature) continue;
+        grid.find(BoxGrid::around(position, position, scale.rmin), near);
+        for (int k : near) {
+            const int v = pinned[k];
+            const double distance = (graph.nodes[v].position - position).norm();
+            if (v == u || distance >= scale.rmin * kSlack) continue;
+            if (options.is_thin_wall && options.is_thin_wall(position, graph.nodes[v].position)) {
+                continue;
+            }
+            for (int s : graph.incident[u]) {
+                if (graph.segments[s].is_pinned) continue;
+                const auto [first, second] = std::minmax(s, pinned_segment[v]);
+                result.conflicts.push_back({ConflictKind::Nodes, first, second, position,
+                                            graph.nodes[v].position, distance, 0});
+            }
+            break;
+        }
+    }
+    const auto order = [](const Conflict& c) { return std::pair(c.first, c.second); };
+    std::ranges::stable_sort(result.conflicts, {}, order);
+    const auto repeated = std::ranges::unique(result.conflicts, {}, order);
+    result.conflicts.erase(repeated.begin(), repeated.end());
+}
+
 bool must_stay_extraordinary(const GraphNode& node) {
     return node.pinned_valence == 1 || node.pinned_valence >= 3;
 }
@@ -338,6 +384,9 @@ ConflictResult detect_conflicts(const SegmentGraph& graph, const ScaleInterval& 
     ConflictResult result;
     tbb::task_arena arena(std::max(1, options.threads));
     arena.execute([&] { find_edge_conflicts(graph, scale, options, result); });
+    if (options.mode == AdaptationMode::Best) {
+        find_conflicts_at_forced_nodes(graph, scale, options, result);
+    }
     find_vertex_conflicts(graph, scale, options, result);
     return result;
 }

@@ -8,35 +8,36 @@
 
 namespace fcn {
 
+namespace {
+
+/// Points closer than this, in touch radii, are never taken for the two sides of a wall: which side
+/// a projection finds would be chance.
+constexpr double kUnclear = 20;
+
+}  // namespace
+
 ThinWallTest::ThinWallTest(const Mesh& mesh, const SurfaceQueries& queries, double surface_distance,
                            double touch)
     : mesh_(mesh), queries_(queries), surface_distance_(surface_distance), touch_(touch) {}
 
-Vec3 ThinWallTest::mean_normal_at(const ClosestPoint& point) const {
+std::vector<int> ThinWallTest::faces_at(const ClosestPoint& point) const {
     const FaceHandle face(point.surface.face);
     for (const VertexHandle vertex : face_vertices(mesh_, face)) {
         if ((mesh_.point(vertex) - point.position).norm() > touch_) continue;
-        Vec3 sum = Vec3::Zero();
-        for (const HalfedgeHandle halfedge : mesh_.voh_range(vertex)) {
-            const FaceHandle other = mesh_.face_handle(halfedge);
-            if (!other.is_valid()) continue;
-            const Vec3 a = mesh_.point(mesh_.to_vertex_handle(halfedge)) - mesh_.point(vertex);
-            const HalfedgeHandle next = mesh_.next_halfedge_handle(halfedge);
-            const Vec3 b = mesh_.point(mesh_.to_vertex_handle(next)) - mesh_.point(vertex);
-            sum += std::atan2(a.cross(b).norm(), a.dot(b)) * face_normal(mesh_, other);
-        }
-        return sum.normalized();
+        std::vector<int> faces;
+        for (const FaceHandle other : mesh_.vf_range(vertex)) faces.push_back(other.idx());
+        return faces;
     }
-    Vec3 sum = face_normal(mesh_, face);
+    std::vector<int> faces{face.idx()};
     for (const HalfedgeHandle halfedge : mesh_.fh_range(face)) {
         const Vec3& a = mesh_.point(mesh_.from_vertex_handle(halfedge));
         const Vec3& b = mesh_.point(mesh_.to_vertex_handle(halfedge));
         const FaceHandle other = mesh_.face_handle(mesh_.opposite_halfedge_handle(halfedge));
         if (other.is_valid() && distance_to_segment(point.position, a, b) <= touch_) {
-            sum += face_normal(mesh_, other);
+            faces.push_back(other.idx());
         }
     }
-    return sum.normalized();
+    return faces;
 }
 
 bool ThinWallTest::is_connected_inside(int from, int to, const Vec3& center, double radius) const {
@@ -59,11 +60,15 @@ bool ThinWallTest::operator()(const Vec3& a, const Vec3& b) const {
     const ClosestPoint p = queries_.closest(a);
     const ClosestPoint q = queries_.closest(b);
     if (p.surface.face < 0 || q.surface.face < 0) return false;
+    if ((a - b).norm() < kUnclear * touch_) return false;
     constexpr double kOpposite = -0.5;
-    const Vec3 plain_p = face_normal(mesh_, FaceHandle(p.surface.face));
-    const Vec3 plain_q = face_normal(mesh_, FaceHandle(q.surface.face));
-    if (plain_p.dot(plain_q) > kOpposite) return false;
-    if (mean_normal_at(p).dot(mean_normal_at(q)) > kOpposite) return false;
+    const std::vector<int> faces_at_q = faces_at(q);
+    for (int f : faces_at(p)) {
+        const Vec3 normal = face_normal(mesh_, FaceHandle(f));
+        for (int g : faces_at_q) {
+            if (normal.dot(face_normal(mesh_, FaceHandle(g))) > kOpposite) return false;
+        }
+    }
     const Vec3 center = (p.position + q.position) / 2;
     return !is_connected_inside(p.surface.face, q.surface.face, center, surface_distance_ / 2);
 }

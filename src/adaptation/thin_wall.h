@@ -9,11 +9,12 @@
 namespace fcn {
 
 /// Says whether a thin wall parts two points that are close in space: surface normals with dot
-/// product <= -0.5 (those of the closest faces, and the means over the faces within `touch` of the
-/// points, so that no crease is mistaken for a wall) and a surface distance of at least
-/// `surface_distance`. The distance is never
-/// overestimated: a path of that length stays inside a ball around the midpoint, so the points
-/// are parted exactly when the faces in that ball do not connect them. Const and thread-safe.
+/// product <= -0.5 (those of any two faces within `touch` of the one point and the other, so that
+/// no crease is mistaken for a wall, whichever normal one takes there), a surface distance of at
+/// least `surface_distance`, and a wall thick enough to tell its sides apart (20 touch radii). The
+/// distance is never overestimated: a path of that length stays inside a ball around the midpoint,
+/// so the points are parted exactly when the faces in that ball do not connect them. Const and
+/// thread-safe.
 class ThinWallTest {
 public:
     ThinWallTest(const Mesh& mesh, const SurfaceQueries& queries, double surface_distance,
@@ -21,7 +22,7 @@ public:
     bool operator()(const Vec3& a, const Vec3& b) const;
 
 private:
-    Vec3 mean_normal_at(const ClosestPoint& point) const;
+    std::vector<int> faces_at(const ClosestPoint& point) const;
     bool is_connected_inside(int from, int to, const Vec3& center, double radius) const;
 
     const Mesh& mesh_;

@@ -3,7 +3,8 @@
 // proportional to the segment's length (else finer sampling earns more), curve length enters by
 // its root in units of rmin, and creases of 40 degrees and more carry a contrast factor; bonuses
 // are multiplied by the pair's smaller sharpness, so that many smooth joints cannot outvote one
-// crease.
+// crease, and by 1/100, so that lambda0 = 100 makes a joint worth what a segment of length rmin is.
+// (At 100 times that, long smooth chains displace more than they cover.)
 
 #include "adaptation/weights.h"
 
@@ -18,6 +19,9 @@ namespace fcn {
 
 namespace {
 
+/// Best mode's unit of lambda0 and lambda1.
+constexpr double kBestBonus = 0.01;
+
 double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
@@ -26,7 +30,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
 double pair_sharpness(const SegmentAttributes& a, const SegmentAttributes& b,
                       const AdaptationOptions& options) {
     if (options.mode == AdaptationMode::Paper) return 1.0;
-    return std::min(a.sharpness * a.contrast, b.sharpness * b.contrast);
+    return kBestBonus * std::min(a.sharpness * a.contrast, b.sharpness * b.contrast);
 }
 
 void add_smoothness(const SegmentGraph& graph, const std::vector<SegmentAttributes>& attributes,

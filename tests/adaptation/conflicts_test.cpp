@@ -390,6 +390,30 @@ TEST(Conflicts, PinnedPairsAreReportedButNoConstraint) {
     }
 }
 
+/// A feature (segment 2) that ends at a pinned node with another pinned node 0.3 away.
+TEST(Conflicts, FeaturesYieldAtNodesThatPinsForceTogether) {
+    for (const double gap : {0.3, 1.1}) {
+        const PlainNetwork network{{{0, 0, 0}, {gap, 0, 0}, {-1.2, 0, 0}, {0, 1.2, 0}},
+                                   {{0, 1}, {0, 2}, {0, 3}}};
+        SegmentGraph graph = make_graph(network);
+        graph.segments[0].is_pinned = graph.segments[1].is_pinned = true;
+        graph.connect();
+        ConflictOptions options;
+        const auto result = detect_conflicts(graph, make_scale(1, 1.5), options);
+        std::vector<std::pair<int, int>> with_feature;
+        for (const Conflict& c : result.conflicts) {
+            if (c.second == 2) with_feature.emplace_back(c.first, c.second);
+        }
+        if (gap < 1) {
+            EXPECT_EQ(with_feature, (std::vector<std::pair<int, int>>{{0, 2}}));
+        } else {
+            EXPECT_TRUE(with_feature.empty());
+        }
+        options.mode = AdaptationMode::Paper;
+        EXPECT_TRUE(detect_conflicts(graph, make_scale(1, 1.5), options).conflicts.empty());
+    }
+}
+
 TEST(Conflicts, ThinWallsAreListedNotInConflict) {
     const auto parallel = two_segments({0, 0, 0}, {1.2, 0, 0}, {0, 0, 0.5}, {1.2, 0, 0.5});
     ConflictOptions options;

@@ -224,12 +224,13 @@ TEST(Bonuses, BothTermsAddUp) {
 }
 
 TEST(Bonuses, BestModeScalesWithTheDullerOfThePair) {
+    // In best mode lambda0 = 100 is one unit of sharpness a joint.
     const test::PlainNetwork chain{{{0, 0, 0}, {1.2, 0, 0}, {2.4, 0, 0}, {3.6, 0, 0}},
                                    {{0, 1}, {1, 2}, {2, 3}}};
     expect_bonuses(bonuses_of(chain, options_of(AdaptationMode::Best), {}, {2.0, 0.5, 3.0}),
-                   {{{0, 1}, 50}, {{1, 2}, 50}});
+                   {{{0, 1}, 0.5}, {{1, 2}, 0.5}});
     expect_bonuses(bonuses_of(chain, options_of(AdaptationMode::Best, 10), {}, {2.0, 0.5, 3.0}),
-                   {{{0, 1}, 55}, {{1, 2}, 55}, {{0, 2}, 20}});
+                   {{{0, 1}, 0.55}, {{1, 2}, 0.55}, {{0, 2}, 0.2}});
 }
 
 // ---- attributes of the initial network ----
