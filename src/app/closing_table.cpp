@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/length.h"
+#include "meshing/remesh.h"
 
 namespace fcn::app {
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/command.h"
+#include "meshing/remesh.h"
 
 namespace fcn::app {
 

@@ -30,9 +30,6 @@ struct ScaleRequest {
     std::string folder() const;  ///< "2pct", or "edge-2.4pct"
 };
 
-/// Edge length of the mesh to be made, in rmin.
-inline constexpr double kEdgeLengthFactor = 1.2;
-
 /// rmin in mesh units. Throws UsageError when it exceeds the (known) diagonal.
 double resolve_scale(const ScaleRequest& request, double diagonal);
 

@@ -104,12 +104,7 @@ private:
         soup_.points.push_back(point);
     }
 
-    Vec3 read_point() {
-        const double x = in_.number("a node coordinate");
-        const double y = in_.number("a node coordinate");
-        const double z = in_.number("a node coordinate");
-        return {x, y, z};
-    }
+    Vec3 read_point() { return in_.point("a node coordinate"); }
 
     void read_nodes_2() {
         const std::size_t count = in_.count("the number of nodes", 8);

@@ -3,7 +3,6 @@
 // keyword, so that sections we do not know are no obstacle.
 
 #include <algorithm>
-#include <cctype>
 #include <functional>
 
 #include "geometry/mesh_formats.h"
@@ -18,11 +17,8 @@ void read_vertices(TextCursor& in, PolygonSoup& soup) {
     const std::size_t count = in.count("the number of vertices", 8);
     soup.points.reserve(soup.points.size() + count);
     for (std::size_t i = 0; i < count; ++i) {
-        const double x = in.number("a vertex coordinate");
-        const double y = in.number("a vertex coordinate");
-        const double z = in.number("a vertex coordinate");
+        soup.points.push_back(in.point("a vertex coordinate"));
         in.number("a vertex reference");
-        soup.points.emplace_back(x, y, z);
     }
 }
 
@@ -44,11 +40,6 @@ void read_polygons(TextCursor& in, PolygonSoup& soup, int corner_count) {
     }
 }
 
-bool is_keyword(std::string_view token) {
-    return !token.empty() && std::isalpha(static_cast<unsigned char>(token.front())) &&
-           token != "nan" && token != "inf";
-}
-
 }  // namespace
 
 PolygonSoup read_medit(std::string_view content, const std::string& source) {
@@ -68,8 +59,8 @@ PolygonSoup read_medit(std::string_view content, const std::string& source) {
             read_polygons(in, soup, 3);
         } else if (word == "Quadrilaterals") {
             read_polygons(in, soup, 4);
-        } else if (is_keyword(word)) {
-            while (!in.peek().empty() && !is_keyword(in.peek())) in.token();
+        } else if (is_word(word)) {
+            while (!in.peek().empty() && !is_word(in.peek())) in.token();
         } else {
             in.fail("expected a keyword, found " + shown(word));
         }

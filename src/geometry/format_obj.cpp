@@ -19,10 +19,7 @@ public:
     PolygonSoup run() {
         for (std::string_view word = in_.token(); !word.empty(); word = in_.token()) {
             if (word == "v") {
-                const double x = in_.number_on_line("a vertex coordinate");
-                const double y = in_.number_on_line("a vertex coordinate");
-                const double z = in_.number_on_line("a vertex coordinate");
-                soup_.points.emplace_back(x, y, z);
+                soup_.points.push_back(in_.point_on_line("a vertex coordinate"));
             } else if (word == "f") {
                 read_face();
             } else if (word == "g") {

@@ -46,11 +46,8 @@ void read_facet(TextCursor& in, PolygonSoup& soup) {
     expect_word(in, "loop");
     for (int i = 0; i < 3; ++i) {
         expect_word(in, "vertex");
-        const double x = in.number("a vertex coordinate");
-        const double y = in.number("a vertex coordinate");
-        const double z = in.number("a vertex coordinate");
         soup.corners.push_back(static_cast<int>(soup.points.size()));
-        soup.points.emplace_back(x, y, z);
+        soup.points.push_back(in.point("a vertex coordinate"));
     }
     expect_word(in, "endloop");
     expect_word(in, "endfacet");

@@ -1,5 +1,6 @@
 #include "geometry/text_cursor.h"
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -14,6 +15,11 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' |
 bool is_newline(char c) { return c == '\n' || c == '\r'; }
 
 }  // namespace
+
+bool is_word(std::string_view token) {
+    return !token.empty() && std::isalpha(static_cast<unsigned char>(token.front())) &&
+           token != "nan" && token != "inf";
+}
 
 std::string shown(std::string_view token) {
     constexpr std::size_t kLongest = 40;
@@ -136,6 +142,16 @@ double TextCursor::number(std::string_view what) { return parse_number(token(), 
 double TextCursor::number_on_line(std::string_view what) {
     return parse_number(token_on_line(), what);
 }
+Eigen::Vector3d TextCursor::point(std::string_view what) {
+    const double x = number(what), y = number(what), z = number(what);
+    return {x, y, z};
+}
+
+Eigen::Vector3d TextCursor::point_on_line(std::string_view what) {
+    const double x = number_on_line(what), y = number_on_line(what), z = number_on_line(what);
+    return {x, y, z};
+}
+
 std::int64_t TextCursor::integer(std::string_view what) { return parse_integer(token(), what); }
 std::int64_t TextCursor::integer_on_line(std::string_view what) {
     return parse_integer(token_on_line(), what);

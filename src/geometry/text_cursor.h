@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ public:
     /// A finite number; `what` names it in the error message.
     double number(std::string_view what);
     double number_on_line(std::string_view what);
+    /// Three numbers, each of which is `what`.
+    Eigen::Vector3d point(std::string_view what);
+    Eigen::Vector3d point_on_line(std::string_view what);
     std::int64_t integer(std::string_view what);
     std::int64_t integer_on_line(std::string_view what);
     /// A count of items of at least `bytes_each` bytes, checked against the bytes that are left, so
@@ -55,6 +59,9 @@ private:
     std::size_t line_ = 1;
     char comment_;
 };
+
+/// Whether a token begins with a letter and is no number (nan, inf).
+bool is_word(std::string_view token);
 
 /// A token fit for a message: shortened, in quotes, control characters replaced.
 std::string shown(std::string_view token);

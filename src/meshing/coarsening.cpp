@@ -13,6 +13,8 @@
 #include <limits>
 #include <tuple>
 
+#include "meshing/edge_corners.h"
+
 namespace fcn {
 namespace {
 
@@ -270,12 +272,7 @@ private:
 
     bool is_flip_better(EdgeHandle edge) const {
         if (!mesh_.is_flip_ok(edge)) return false;
-        const HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
-        const HalfedgeHandle o = mesh_.halfedge_handle(edge, 1);
-        const Vec3& a = mesh_.point(mesh_.from_vertex_handle(h));
-        const Vec3& b = mesh_.point(mesh_.to_vertex_handle(h));
-        const Vec3& c = mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
-        const Vec3& d = mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(o)));
+        const auto [a, b, c, d] = edge_corners(mesh_, edge);
         const FaceShape first = shape_of(a, b, c), second = shape_of(b, a, d);
         const FaceShape third = shape_of(c, d, b), fourth = shape_of(d, c, a);
         const double before = std::min(first.quality, second.quality);

@@ -12,6 +12,8 @@
 #include <limits>
 #include <optional>
 
+#include "meshing/edge_corners.h"
+
 namespace fcn {
 namespace {
 
@@ -124,12 +126,7 @@ private:
 
     std::optional<Change> flip(EdgeHandle edge) {
         if (is_marked(edge) || mesh_.is_boundary(edge) || !mesh_.is_flip_ok(edge)) return {};
-        const HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
-        const HalfedgeHandle o = mesh_.halfedge_handle(edge, 1);
-        const Vec3& a = mesh_.point(mesh_.from_vertex_handle(h));
-        const Vec3& b = mesh_.point(mesh_.to_vertex_handle(h));
-        const Vec3& c = mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
-        const Vec3& d = mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(o)));
+        const auto [a, b, c, d] = edge_corners(mesh_, edge);
         const Triangle first = measure(a, b, c), second = measure(b, a, d);
         const Triangle third = measure(c, d, b), fourth = measure(d, c, a);
         const double turn =

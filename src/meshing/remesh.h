@@ -8,8 +8,12 @@
 
 namespace fcn {
 
+/// Edge length of a mesh on a network of scale rmin, in rmin: a remesher that aims at it need not
+/// split or collapse a segment.
+inline constexpr double kEdgeLengthFactor = 1.2;
+
 struct RemeshOptions {
-    double edge_length = 0;  ///< target L, mesh units, > 0 (1.2 rmin keeps every segment)
+    double edge_length = 0;  ///< target L, mesh units, > 0
     int iterations = 10;
     /// Protect the network's segments (or dense arcs if it has none); false: plain remeshing.
     bool is_protecting = true;

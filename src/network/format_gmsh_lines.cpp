@@ -76,12 +76,7 @@ private:
             in_.fail("node " + std::to_string(tag) + " is there twice");
     }
 
-    void read_position() {
-        const double x = in_.number("a node coordinate");
-        const double y = in_.number("a node coordinate");
-        const double z = in_.number("a node coordinate");
-        soup_.points.emplace_back(x, y, z);
-    }
+    void read_position() { soup_.points.push_back(in_.point("a node coordinate")); }
 
     void read_nodes_2() {
         const std::size_t count = in_.count("the number of nodes", 8);

@@ -3,7 +3,6 @@
 // Corners the nodes with other than two arc ends. Read: Vertices and Edges; references are arc
 // numbers. Other sections are walked over token by token until the next keyword.
 
-#include <cctype>
 #include <limits>
 
 #include "geometry/text_cursor.h"
@@ -17,11 +16,8 @@ void read_vertices(TextCursor& in, EdgeSoup& soup) {
     const std::size_t count = in.count("the number of vertices", 8);
     soup.points.reserve(soup.points.size() + count);
     for (std::size_t k = 0; k < count; ++k) {
-        const double x = in.number("a vertex coordinate");
-        const double y = in.number("a vertex coordinate");
-        const double z = in.number("a vertex coordinate");
+        soup.points.push_back(in.point("a vertex coordinate"));
         in.number("a vertex reference");
-        soup.points.emplace_back(x, y, z);
     }
 }
 
@@ -48,11 +44,6 @@ void read_edges(TextCursor& in, EdgeSoup& soup) {
     }
 }
 
-bool is_keyword(std::string_view token) {
-    return !token.empty() && std::isalpha(static_cast<unsigned char>(token.front())) &&
-           token != "nan" && token != "inf";
-}
-
 }  // namespace
 
 EdgeSoup read_medit_edges(std::string_view content, const std::string& source) {
@@ -71,8 +62,8 @@ EdgeSoup read_medit_edges(std::string_view content, const std::string& source) {
         } else if (word == "Edges") {
             read_edges(in, soup);
             has_edges = true;
-        } else if (is_keyword(word)) {
-            while (!in.peek().empty() && !is_keyword(in.peek())) in.token();
+        } else if (is_word(word)) {
+            while (!in.peek().empty() && !is_word(in.peek())) in.token();
         } else {
             in.fail("expected a keyword, found " + shown(word));
         }

@@ -17,10 +17,7 @@ public:
         bool has_lines = false;
         for (std::string_view word = in_.token(); !word.empty(); word = in_.token()) {
             if (word == "v") {
-                const double x = in_.number_on_line("a vertex coordinate");
-                const double y = in_.number_on_line("a vertex coordinate");
-                const double z = in_.number_on_line("a vertex coordinate");
-                soup_.points.emplace_back(x, y, z);
+                soup_.points.push_back(in_.point_on_line("a vertex coordinate"));
             } else if (word == "l") {
                 read_line();
                 has_lines = true;

@@ -21,11 +21,8 @@ EdgeSoup read_polylines(std::string_view content, const std::string& source) {
         std::vector<int> indices;
         indices.reserve(size);
         for (std::size_t k = 0; k < size; ++k) {
-            const double x = in.number("a coordinate");
-            const double y = in.number("a coordinate");
-            const double z = in.number("a coordinate");
             indices.push_back(static_cast<int>(soup.points.size()));
-            soup.points.emplace_back(x, y, z);
+            soup.points.push_back(in.point("a coordinate"));
         }
         soup.add_polyline(indices, count++);
         longest = std::max(longest, size);

@@ -157,7 +157,7 @@ private:
         const ScaleRecord& scale = record.scales[index];
         html_.element("h3",
                       "Scale " + scale.label + ": rmin " + format_significant(scale.rmin) +
-                          ", edge length " + format_significant(target_edge_length(scale.rmin)),
+                          ", edge length " + format_significant(kEdgeLengthFactor * scale.rmin),
                       {{"id", scale_id(mesh, index)}});
         write_badges(scale);
         write_figures(record, scale, pictures);
@@ -220,7 +220,7 @@ private:
                              " on the adapted network; smallest angle " +
                              format_number(scale.remesh_quality.min_angle_degrees, 1) + " degrees.",
                          "Triangle mesh of edge length " +
-                             format_significant(target_edge_length(scale.rmin)) +
+                             format_significant(kEdgeLengthFactor * scale.rmin) +
                              " on the adapted network.",
                          {{palette.kept, "feature edges"}, {palette.pinned, "pinned edges"}});
         html_.close();

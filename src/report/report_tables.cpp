@@ -54,8 +54,6 @@ double total_seconds(const IterationReport& iteration) {
 
 }  // namespace
 
-double target_edge_length(double rmin) { return 1.2 * rmin; }
-
 HtmlTable engineer_table(const std::vector<MeshRecord>& meshes) {
     HtmlTable table;
     table.caption = "Triangle meshes made with the initial and with the adapted network protected";
@@ -67,7 +65,7 @@ HtmlTable engineer_table(const std::vector<MeshRecord>& meshes) {
     table.text_columns = 3;
     for (const MeshRecord& mesh : meshes) {
         for (const ScaleRecord& scale : mesh.scales) {
-            const double edge = target_edge_length(scale.rmin);
+            const double edge = kEdgeLengthFactor * scale.rmin;
             const std::string dash = format_number(kUnknown, 0);
             Row initial{mesh.mesh.name, scale.label, "initial", format_significant(edge)};
             const Row before = quality_cells(scale.initial_quality, edge, scale.has_initial_remesh);

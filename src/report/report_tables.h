@@ -5,9 +5,6 @@
 
 namespace fcn {
 
-/// Edge length a remesh has at a scale: L = 1.2 rmin.
-double target_edge_length(double rmin);
-
 /// What a mesh engineer reads: triangles on the initial and on the adapted network.
 HtmlTable engineer_table(const std::vector<MeshRecord>& meshes);
 
