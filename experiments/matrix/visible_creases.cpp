@@ -28,6 +28,7 @@ struct Sample {
     Vec3 position = Vec3::Zero();
     int owner = -1;
     double length = 0;
+    double along = 0;  ///< arc length from the start of the owner
 };
 
 /// Points by cells of a given size; queries reach one cell far at most.
@@ -65,12 +66,13 @@ private:
     std::map<std::array<long, 3>, std::vector<int>> cells_;
 };
 
-void add_samples(const Vec3& a, const Vec3& b, double spacing, int owner,
+void add_samples(const Vec3& a, const Vec3& b, double spacing, int owner, double along,
                  std::vector<Sample>& samples) {
     const double length = (b - a).norm();
     const int count = std::max(1, static_cast<int>(std::ceil(length / spacing)));
     for (int k = 0; k < count; ++k) {
-        samples.push_back({a + (k + 0.5) / count * (b - a), owner, length / count});
+        const double t = (k + 0.5) / count;
+        samples.push_back({a + t * (b - a), owner, length / count, along + t * length});
     }
 }
 
@@ -78,9 +80,11 @@ std::vector<Sample> arc_samples(const FeatureCurveNetwork& network, double spaci
     std::vector<Sample> samples;
     for (std::size_t a = 0; a < network.arcs.size(); ++a) {
         const auto& points = network.arcs[a].samples;
+        double along = 0;
         for (std::size_t k = 0; k + 1 < points.size(); ++k) {
             add_samples(points[k].position, points[k + 1].position, spacing, static_cast<int>(a),
-                        samples);
+                        along, samples);
+            along += (points[k + 1].position - points[k].position).norm();
         }
     }
     return samples;
@@ -103,7 +107,7 @@ std::vector<Sample> segment_samples(const FeatureCurveNetwork& network, double s
     std::vector<Sample> samples;
     for (const NetworkSegment& s : network.segments) {
         add_samples(network.nodes[s.nodes[0]].position, network.nodes[s.nodes[1]].position, spacing,
-                    piece_of_node[s.nodes[0]], samples);
+                    piece_of_node[s.nodes[0]], 0, samples);
     }
     return samples;
 }
@@ -148,10 +152,17 @@ std::vector<IsolatedCrease> isolated_creases(const LoadedMesh& mesh,
     const Cells crease_cells(samples, kIsolated * rmin);
     const Cells cover_cells(covers, kCovered * rmin);
     std::vector<IsolatedCrease> of_arc(creases.arcs.size());
+    std::vector<double> length_of;
+    for (const NetworkArc& arc : creases.arcs) length_of.push_back(arc.length());
     for (const Sample& sample : samples) {
-        if (crease_cells.any_within(sample.position, kIsolated * rmin, [&](const Sample& other) {
-                return other.owner != sample.owner;
-            })) {
+        const NetworkArc& arc = creases.arcs[sample.owner];
+        const auto is_other = [&](const Sample& other) {
+            if (other.owner != sample.owner) return true;
+            double between = std::abs(other.along - sample.along);
+            if (arc.is_closed()) between = std::min(between, length_of[sample.owner] - between);
+            return between >= 2 * kIsolated * rmin;  // bends back to itself
+        };
+        if (crease_cells.any_within(sample.position, kIsolated * rmin, is_other)) {
             continue;
         }
         IsolatedCrease& crease = of_arc[sample.owner];

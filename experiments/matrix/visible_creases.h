@@ -16,8 +16,9 @@ struct IsolatedCrease {
 
 /// What a person sees of an adapted network (DESIGN 4.12): for each crease of at least 40 degrees
 /// the part that runs farther than 1.5 rmin from every other such crease, and how much of it is
-/// covered. Creases are traced anew from the mesh's dihedral angles. Creases without an isolated
-/// part are left out.
+/// covered. Where a crease bends back to within 1.5 rmin of itself it is not isolated either.
+/// Creases are traced anew from the mesh's dihedral angles; those without an isolated part are
+/// left out.
 std::vector<IsolatedCrease> isolated_creases(const LoadedMesh& mesh,
                                              const FeatureCurveNetwork& network, double rmin);
 
