@@ -47,6 +47,8 @@ constexpr int kCrumbRounds = 20;
 constexpr int kRefillRounds = 3;
 /// A dropped piece of which this share came back is no longer listed as dropped.
 constexpr double kCameBack = 0.5;
+/// More samples than this do not fit into memory.
+constexpr double kMostSamples = 5e7;
 
 AdaptationOptions with_defaults(AdaptationOptions options) {
     if (options.lambda1 < 0) {
@@ -723,6 +725,15 @@ private:
     std::set<int> crumb_segments_;
 };
 
+void check_size(const FeatureCurveNetwork& initial, const AdaptationOptions& options) {
+    const double spacing = sample_spacing(make_scale(options.rmin, options.ratio, options.target));
+    const double length = initial.total_length();
+    require(length / spacing <= kMostSamples,
+            "scale " + std::to_string(options.rmin) + " is too small for curves of length " +
+                std::to_string(length) + ": they would need more than " +
+                std::to_string(static_cast<long>(kMostSamples)) + " samples");
+}
+
 }  // namespace
 
 const char* to_string(AdaptationStatus status) {
@@ -744,6 +755,7 @@ AdaptationResult adapt_network(const LoadedMesh& mesh, const FeatureCurveNetwork
     check_options(options);
     const std::vector<std::string> problems = validate(initial);
     if (!problems.empty()) throw InputError("the network is not valid: " + problems.front());
+    check_size(initial, options);
     return Adapter(mesh, initial, options).run();
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/command.h"
 #include "app/interrupt.h"
+#include "labeling/errors.h"
 #include "labeling_mip/mip_solvers.h"
 
 namespace fcn::app {
@@ -18,7 +19,9 @@ constexpr double kHuge = 1e12;
 
 void add_objective_arguments(CLI::App& parser, AdaptationArguments& arguments) {
     constexpr const char* kGroup = "Objective";
-    parser.add_option("--lambda0", arguments.lambda0, "Weight of smoothness")
+    parser
+        .add_option("--lambda0", arguments.lambda0,
+                    "Weight of smoothness (mode best: in hundredths)")
         ->group(kGroup)
         ->check(CLI::Range(0.0, kHuge))
         ->capture_default_str();
@@ -143,7 +146,7 @@ AdaptationOptions AdaptationArguments::options(const CommonArguments& common) co
     options.max_iterations = max_iterations;
     options.threads = common.thread_count();
     options.solve = limits.solve_options(common);
-    options.solver = labeling::all_solvers().find(solver);
+    options.solver = find_solver(solver);
     options.stop = interrupt_token();
     return options;
 }
@@ -165,6 +168,14 @@ void add_adaptation_arguments(CLI::App& parser, AdaptationArguments& arguments) 
     add_limit_arguments(parser, arguments.limits);
     add_criteria_arguments(parser, arguments.criteria);
     add_objective_arguments(parser, arguments);
+}
+
+std::shared_ptr<const labeling::Solver> find_solver(const std::string& name) {
+    try {
+        return labeling::all_solvers().find(name);
+    } catch (const labeling::InputError& error) {
+        throw UsageError(error.what());
+    }
 }
 
 std::string solver_names() {

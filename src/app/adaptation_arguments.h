@@ -58,10 +58,13 @@ struct AdaptationArguments {
     double ortho_radius = 2;
     int max_iterations = 50;
 
-    /// Everything but rmin and the progress callback. InputError on an unknown solver.
+    /// Everything but rmin and the progress callback. UsageError on an unknown solver.
     AdaptationOptions options(const CommonArguments& common) const;
 };
 void add_adaptation_arguments(CLI::App& parser, AdaptationArguments& arguments);
+
+/// Throws UsageError that lists the known names.
+std::shared_ptr<const labeling::Solver> find_solver(const std::string& name);
 
 /// All solvers of this program, one line each, for --help.
 std::string solver_names();

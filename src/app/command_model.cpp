@@ -7,6 +7,7 @@
 #include "app/common_arguments.h"
 #include "app/json_summary.h"
 #include "app/outputs.h"
+#include "geometry/errors.h"
 #include "geometry/models.h"
 
 namespace fcn::app {
@@ -30,6 +31,15 @@ int list_models(const CommonArguments& common) {
     return kDone;
 }
 
+/// Whatever is wrong with a model was typed on the command line.
+LoadedMesh make_named(const ModelArguments& arguments) {
+    try {
+        return make_model(arguments.name, arguments.model);
+    } catch (const InputError& error) {
+        throw UsageError(error.what());
+    }
+}
+
 int make(ModelArguments& arguments) {
     if (arguments.is_list) return list_models(arguments.common);
     if (arguments.name.empty())
@@ -38,7 +48,7 @@ int make(ModelArguments& arguments) {
         arguments.output.empty() ? arguments.name + ".off" : arguments.output;
     prepare_output(output, OutputKind::Mesh, arguments.common);
     arguments.model.seed = arguments.common.seed;
-    const LoadedMesh mesh = make_model(arguments.name, arguments.model);
+    const LoadedMesh mesh = make_named(arguments);
     save_mesh(output, mesh);
     if (output == "-") return kDone;
     if (arguments.common.is_json)

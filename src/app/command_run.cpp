@@ -17,7 +17,6 @@
 #include "app/pipeline.h"
 #include "app/run_files.h"
 #include "geometry/errors.h"
-#include "labeling_mip/mip_solvers.h"
 
 namespace fcn::app {
 namespace {
@@ -67,8 +66,7 @@ std::vector<ScaleRequest> scale_requests(const RunArguments& arguments) {
 std::vector<std::string> compared_solvers(const std::string& list) {
     if (list == "none") return {};
     std::vector<std::string> names = split_list(list, "--solvers");
-    const labeling::SolverRegistry registry = labeling::all_solvers();
-    for (const std::string& name : names) registry.find(name);  // throws for an unknown name
+    for (const std::string& name : names) find_solver(name);  // throws for an unknown name
     return names;
 }
 

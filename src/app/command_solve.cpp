@@ -10,7 +10,6 @@
 #include "app/outputs.h"
 #include "app/progress.h"
 #include "labeling/formats.h"
-#include "labeling_mip/mip_solvers.h"
 
 namespace fcn::app {
 namespace {
@@ -75,7 +74,7 @@ labeling::SolveResult run_solver(const labeling::LabelingProblem& problem,
         bar.show(fmt::format("{} value {}", arguments.solver, point.value.value_or(0)),
                  limit > 0 ? point.seconds / limit : 0);
     };
-    return labeling::all_solvers().find(arguments.solver)->solve(problem, options);
+    return find_solver(arguments.solver)->solve(problem, options);
 }
 
 int solve(const SolveArguments& arguments) {

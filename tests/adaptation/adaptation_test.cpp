@@ -308,6 +308,7 @@ TEST(Adaptation, RefusesBadOptionsWithAWord) {
     };
     expect_refused([](AdaptationOptions& o) { o.rmin = 0; });
     expect_refused([](AdaptationOptions& o) { o.rmin = std::nan(""); });
+    expect_refused([](AdaptationOptions& o) { o.rmin = 1e-9; });
     expect_refused([](AdaptationOptions& o) { o.ratio = 1.0; });
     expect_refused([](AdaptationOptions& o) { o.ratio = 1.74; });
     expect_refused([](AdaptationOptions& o) { o.lambda0 = -1; });

@@ -137,13 +137,13 @@ class BadInputs(ProgramTest):
         ("text.mps", "not a model\n", "text.mps"),
     ]
 
-    def refuse(self, name, content, arguments, message):
+    def refuse(self, name, content, arguments, message, code=BAD_INPUT):
         if isinstance(content, bytes):
             (self.folder / name).write_bytes(content)
         elif content is not None:
             self.write(name, content)
         result = self.call(*arguments)
-        self.assertEqual(result.returncode, BAD_INPUT, result.stdout + result.stderr)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
         self.assertIn(message.lower(), result.stderr.lower())
         self.assert_one_error(result.stderr)
 
@@ -198,12 +198,22 @@ class BadInputs(ProgramTest):
 
     def test_unknown_names_list_the_known(self):
         self.write("p.lab", PROBLEM)
-        self.refuse("unused", None, ["solve", "p.lab", "--solver", "oracle"], "branch-and-bound")
-        self.refuse("unused", None, ["model", "teapot"], "skyscraper")
+        self.model("box", "--resolution", "0.3")
+        for arguments, known in ((["solve", "p.lab", "--solver", "oracle"], "branch-and-bound"),
+                                 (["adapt", "box.off", "--scale", "9%", "--solver", "oracle", "-o",
+                                   "n.fcn.json"], "branch-and-bound"),
+                                 (["run", "box.off", "--solvers", "greedy,oracle"], "local-search"),
+                                 (["model", "teapot"], "skyscraper")):
+            self.refuse("unused", None, arguments, known, code=USAGE)
 
     def test_model_options_out_of_range(self):
-        self.refuse("unused", None, ["model", "ribs", "--resolution", "0"], "resolution")
-        self.refuse("unused", None, ["model", "ribs", "--spacing", "-1"], "spacing")
+        for option, value in (("--resolution", "0"), ("--spacing", "-1")):
+            self.refuse("unused", None, ["model", "ribs", option, value], option[2:], code=USAGE)
+
+    def test_a_scale_beyond_memory_is_refused(self):
+        self.model("box", "--resolution", "0.3")
+        self.refuse("unused", None, ["adapt", "box.off", "--method", "sharp", "--scale", "1e-9",
+                                     "-o", "n.fcn.json"], "too small")
 
     def test_solution_of_another_problem(self):
         self.write("p.lab", PROBLEM)
