@@ -5,8 +5,9 @@
 // complete propagated assignments with integer values. When fixing at the root has shrunk the
 // problem by a third or split it, the rest is handed back to be solved as smaller problems, with
 // new cliques and a smaller LP. The tree dives into the child that looks better and continues with
-// the best bound; the label to branch on is chosen by strong branching with few iterations, later
-// by pseudo costs (Achterberg, Koch & Martin 2005).
+// the best bound; the label to branch on is chosen by strong branching, later by pseudo costs
+// (Achterberg, Koch & Martin 2005). Strong branching runs its LPs nearly to the end: cut off after
+// 60 iterations they often show no gain at all, and the tree chose badly.
 #include "labeling/branch_and_cut.h"
 
 #include <algorithm>
@@ -585,7 +586,7 @@ private:
     static constexpr int kMostStrong = 12;
     static constexpr int kPatience = 6;
     static constexpr int kReliable = 4;
-    static constexpr std::int64_t kStrongIterations = 60;
+    static constexpr std::int64_t kStrongIterations = 500;
 
     const LabelingProblem& problem_;
     RunControl& control_;

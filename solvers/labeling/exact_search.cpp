@@ -1,6 +1,6 @@
 // The exact solvers' common frame. Root propagation and decomposition first; then part by part,
-// small parts first, because thousands of them close at once and the large ones get all that is
-// left. A part of a few labels goes straight to the depth-first tree; a larger one gets a local
+// small parts first, because thousands of them close at once, and in passes of growing allowance. A
+// part of a few labels goes straight to the depth-first tree; a larger one gets a local
 // search as long as its size justifies, then branch-and-cut where an LP is linked. Value and bound
 // of the whole are the sums over the parts, so both are known at any time.
 #include "labeling/exact_search.h"
@@ -18,6 +18,7 @@ namespace labeling {
 namespace {
 
 constexpr std::int64_t kDefaultWork = 300'000'000;
+constexpr std::int64_t kFirstAllowance = 100'000;  ///< ticks per label of a part
 
 Value sum_of_positive(const LabelingProblem& problem) {
     Value bound = 0;
@@ -60,11 +61,7 @@ public:
             if (!start(part)) return infeasible();
         }
         report();
-        for (Part& part : parts_) {
-            if (!prove(part)) return infeasible();
-            report();
-        }
-        return result();
+        return prove_all() ? result() : infeasible();
     }
 
 private:
@@ -73,6 +70,10 @@ private:
         std::optional<Solution> solution;
         Value value = kNoValue;  ///< best known, kNoValue: none
         Value bound = 0;
+
+        bool is_given_up = false;
+
+        bool is_open() const { return !is_given_up && !(solution && bound <= solution->value); }
     };
 
     SolveResult infeasible() {
@@ -138,6 +139,29 @@ private:
         part.solution = std::move(found.solution);
         if (part.solution) part.value = part.solution->value;
         return !found.is_infeasible;
+    }
+
+    /// Passes over the open parts, each with four times the allowance of the one before, so that
+    /// one hard part does not keep the others from being solved. False: a part has no solution.
+    bool prove_all() {
+        std::int64_t allowance = kFirstAllowance;
+        while (true) {
+            std::vector<Part*> open;
+            for (Part& part : parts_) {
+                if (part.is_open()) open.push_back(&part);
+            }
+            for (Part* part : open) {
+                const bool is_only = open.size() == 1;
+                const std::int64_t ticks = allowance * part->sub.problem.label_count();
+                RunControl::Cap cap(control_, is_only ? control_.work_left() : ticks);
+                if (!prove(*part)) return false;
+                // Neither closed nor stopped: the tree had to forget nodes to save memory.
+                part->is_given_up = !control_.should_stop();
+                report();
+            }
+            if (open.empty() || control_.is_over()) return true;
+            allowance *= 4;
+        }
     }
 
     /// False: the part has no solution.

@@ -97,7 +97,7 @@ LpEngine::Outcome Relaxation::solve(RunControl& control, std::int64_t max_iterat
         const auto outcome = engine_->solve(chunk);
         max_iterations -= engine_->iterations();
         const std::int64_t size = row_count() + column_count();
-        const bool must_stop = control.spend(size / 20 + engine_->iterations() * size / 50);
+        const bool must_stop = control.spend(2 * size + engine_->iterations() * size / 5);
         if (outcome == LpEngine::Outcome::Infeasible) {
             if (prove_infeasible()) {
                 bound_ = kNoValue;
