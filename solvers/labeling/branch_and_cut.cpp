@@ -48,7 +48,8 @@ public:
           separator_(problem, graph_),
           triples_(problem, rows_, graph_),
           best_value_(lower),
-          pseudo_costs_(problem.label_count()) {
+          pseudo_costs_(problem.label_count()),
+          first_work_(control.work()) {
         if (start && start->value > lower) {
             result_.solution = start;
             best_value_ = start->value;
@@ -145,6 +146,7 @@ private:
             stalled = is_stalled ? stalled + 1 : 0;
             last = bound;
             if (round % 8 == 3 || (stalled == 1)) polish();
+            intensify();
             if (is_prunable(root_bound_)) return NodeOutcome::Pruned;
             std::size_t added = 0;
             if (stalled < 3) added = add_cliques({}) + add_triples();
@@ -333,6 +335,22 @@ private:
         if (better.value > best_value_) accept(std::move(better));
     }
 
+    /// Keeps a share of the work for the local search, in chunks long enough to be worth it.
+    void intensify() {
+        if (!options_.techniques.heuristics || !result_.solution) return;
+        const std::int64_t due = (control_.work() - first_work_) / kSearchShare - search_work_;
+        if (due < kSearchChunk * problem_.label_count()) return;
+        const std::int64_t before = control_.work();
+        RunControl::Cap cap(control_, due);
+        LocalSearchOptions search;
+        search.seed = options_.seed + 2000 + static_cast<std::uint64_t>(polish_count_++);
+        search.start_temperature = 1.5;
+        search.first_chain = due / 4;
+        Solution better = improve_labeling(problem_, rows_, control_, *result_.solution, search);
+        search_work_ += control_.work() - before;
+        if (better.value > best_value_) accept(std::move(better));
+    }
+
     // ---- tree -------------------------------------------------------------------------------
 
     void search_tree() {
@@ -351,6 +369,7 @@ private:
                 if (!load(current)) continue;
             }
             has_current = false;
+            intensify();
             ++statistics.nodes;
             ++result_.nodes;
             const NodeOutcome outcome = process(current);
@@ -581,6 +600,8 @@ private:
     }
 
     static constexpr Value kHuge = Value{1} << 60;
+    static constexpr std::int64_t kSearchShare = 6;    ///< one part in so many
+    static constexpr std::int64_t kSearchChunk = 500;  ///< ticks per label
     static constexpr int kMostGomoryRounds = 30;
     static constexpr int kNodeRounds = 3;
     static constexpr int kMostStrong = 12;
@@ -612,6 +633,8 @@ private:
     double total_cost_ = 0, average_cost_ = 1;
     std::int64_t cost_count_ = 0;
     int polish_count_ = 0;
+    const std::int64_t first_work_;
+    std::int64_t search_work_ = 0;
 };
 
 }  // namespace
