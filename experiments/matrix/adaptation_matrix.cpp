@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -30,6 +31,7 @@ struct Arguments {
     std::string csv;
     double ratio = 1.5, lambda0 = 100, alpha_loop = -1;
     int threads = 1;
+    std::int64_t work = 0;
 };
 
 struct Row {
@@ -77,6 +79,7 @@ AdaptationOptions adaptation_options(const Arguments& arguments, const std::stri
     options.lambda0 = arguments.lambda0;
     options.alpha_loop = arguments.alpha_loop;
     options.threads = arguments.threads;
+    if (arguments.work > 0) options.solve.work_limit = arguments.work;
     options.mode = variant == "paper" ? AdaptationMode::Paper : AdaptationMode::Best;
     options.solver = labeling::all_solvers().find(variant == "greedy" ? "greedy" : "auto");
     return options;
@@ -245,6 +248,7 @@ int main(int argc, char** argv) {
     app.add_option("--lambda0", arguments.lambda0, "weight of smoothness");
     app.add_option("--alpha-loop", arguments.alpha_loop, "weight factor of loops");
     app.add_option("--threads", arguments.threads, "threads of one run");
+    app.add_option("--work", arguments.work, "work limit of the solver for one adaptation");
     app.add_option("--csv", arguments.csv, "file for the rows; standard output without it");
     CLI11_PARSE(app, argc, argv);
     try {

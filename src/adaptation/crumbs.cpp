@@ -16,7 +16,8 @@ constexpr double kWhole = 0.999;
 
 struct Piece {
     std::vector<int> segments;
-    double length = 0;
+    double length = 0;         ///< along the arcs
+    double chord_length = 0;   ///< of the segments
     double crease_length = 0;  ///< along creases
     bool is_pinned = false;
     bool may_grow = false;
@@ -29,6 +30,7 @@ void add_segment(Piece& piece, int s, const WorkingNetwork& network, const Netwo
     const WorkingArc& arc = network.arcs[source.arc];
     piece.segments.push_back(s);
     piece.is_pinned |= arc.is_pinned;
+    piece.chord_length += graph.graph.length(s);
     for (int k = source.first_sample; k < source.last_sample; ++k) {
         const double length = (arc.points[k + 1] - arc.points[k]).norm();
         piece.length += length;
@@ -41,7 +43,7 @@ void add_segment(Piece& piece, int s, const WorkingNetwork& network, const Netwo
 }
 
 bool is_crumb(const Piece& piece, const CrumbOptions& options) {
-    if (piece.length >= options.min_length || piece.is_pinned || piece.may_grow) return false;
+    if (piece.chord_length >= options.min_length || piece.is_pinned || piece.may_grow) return false;
     const bool is_crease = piece.crease_length >= piece.length / 2;
     bool has_whole_curves = true;
     for (const auto& [curve, length] : piece.length_of_curve) {

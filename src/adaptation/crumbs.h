@@ -13,7 +13,7 @@ struct Crumb {
 };
 
 struct CrumbOptions {
-    double min_length = 0;                ///< mesh units, along the arcs
+    double min_length = 0;                ///< of the segments together, mesh units
     std::vector<int> curve_of_origin;     ///< initial arc -> initial curve
     std::vector<double> length_of_curve;  ///< initial curve -> length at the start
     std::vector<int> component_of_curve;  ///< initial curve -> component of the initial network
