@@ -489,24 +489,53 @@ private:
         for (Node& node : kept) open_.push(std::move(node));
     }
 
-    double score(Label i, double x) const {
+    /// Value of the relaxation that goes with each label: its own and half of its bonuses'.
+    void weigh_labels() {
+        masses_.assign(problem_.label_count(), 0.0);
+        for (Label i = 0; i < problem_.label_count(); ++i) {
+            masses_[i] = relaxation_x_[i] * static_cast<double>(problem_.weight(i));
+        }
+        for (std::int32_t k = 0; k < graph_.bonus_count(); ++k) {
+            const Bonus& b = problem_.bonuses()[k];
+            const double mass =
+                relaxation_x_[problem_.label_count() + k] * static_cast<double>(b.value);
+            masses_[b.first] += mass;
+            masses_[b.second] += mass;
+        }
+    }
+
+    /// What switching the label off (on) displaces: a guess of the gain before anything is known.
+    double displaced(Label i, bool value) const {
+        if (!value) return masses_[i];
+        double sum = 0;
+        for (Label j : problem_.conflicts_of(i)) sum += masses_[j];
+        return sum;
+    }
+
+    double expected_gain(Label i, bool value) const {
         const PseudoCost& cost = pseudo_costs_[i];
-        const double down = cost.count[0] > 0 ? cost.sum[0] / cost.count[0] : average_cost_;
-        const double up = cost.count[1] > 0 ? cost.sum[1] / cost.count[1] : average_cost_;
-        return std::max(1e-6, down * x) * std::max(1e-6, up * (1 - x));
+        const double x = relaxation_x_[i];
+        if (cost.count[value] > 0) {
+            return cost.sum[value] / cost.count[value] * (value ? 1 - x : x);
+        }
+        return gain_per_mass_[value] * displaced(i, value);
+    }
+
+    double score(Label i) const {
+        return std::max(1.0, expected_gain(i, false)) * std::max(1.0, expected_gain(i, true));
     }
 
     /// Label to branch on. -1: labels were decided instead and the node must be solved again.
     Label choose(Node& node, const Relaxation::SavedBasis& basis, bool& is_settled) {
         relaxation_x_.assign(relaxation_.x().begin(), relaxation_.x().end());
         child_bounds_ = {node.bound, node.bound};
+        weigh_labels();
         std::vector<std::pair<double, Label>> candidates;
         for (Label i = 0; i < problem_.label_count(); ++i) {
             if (!propagator_.is_free(i)) continue;
             const double x = relaxation_x_[i];
             if (x > kIntegrality && x < 1 - kIntegrality) {
-                const double weight = 1e-3 * worth(i);
-                candidates.emplace_back(score(i, x) * (1 + weight), i);
+                candidates.emplace_back(score(i), i);
             }
         }
         if (candidates.empty()) {
@@ -520,12 +549,6 @@ private:
                          [](const auto& a, const auto& b) { return a.first > b.first; });
         if (!options_.techniques.strong_branching) return candidates[0].second;
         return strong_branch(node, basis, candidates, is_settled);
-    }
-
-    double worth(Label i) const {
-        double sum = static_cast<double>(problem_.weight(i));
-        for (const auto& b : problem_.bonuses_of(i)) sum += static_cast<double>(b.value);
-        return sum / std::max(1.0, static_cast<double>(std::abs(root_bound_)));
     }
 
     Label strong_branch(Node& node, const Relaxation::SavedBasis& basis,
@@ -563,7 +586,7 @@ private:
                 for (int value : {0, 1}) {
                     gains[value] = static_cast<double>(node.bound - bounds[value]);
                     const double distance = value == 0 ? relaxation_x_[i] : 1 - relaxation_x_[i];
-                    learn(i, value, gains[value] / std::max(1e-6, distance));
+                    learn(i, value, gains[value], distance);
                 }
             }
             const double score = std::max(1.0, gains[0]) * std::max(1.0, gains[1]);
@@ -591,12 +614,12 @@ private:
         return bound;
     }
 
-    void learn(Label i, int value, double gain) {
-        pseudo_costs_[i].sum[value] += gain;
+    void learn(Label i, int value, double gain, double distance) {
+        pseudo_costs_[i].sum[value] += gain / std::max(1e-6, distance);
         ++pseudo_costs_[i].count[value];
-        total_cost_ += gain;
-        ++cost_count_;
-        average_cost_ = total_cost_ / static_cast<double>(cost_count_);
+        total_gain_[value] += gain;
+        total_mass_[value] += displaced(i, value == 1);
+        if (total_mass_[value] > 0) gain_per_mass_[value] = total_gain_[value] / total_mass_[value];
     }
 
     static constexpr Value kHuge = Value{1} << 60;
@@ -630,8 +653,8 @@ private:
     std::vector<double> relaxation_x_;
     std::pair<Value, Value> child_bounds_;  ///< of the chosen label at 0 and at 1
     std::vector<PseudoCost> pseudo_costs_;
-    double total_cost_ = 0, average_cost_ = 1;
-    std::int64_t cost_count_ = 0;
+    std::vector<double> masses_;  ///< per label, see weigh_labels()
+    double total_gain_[2] = {0, 0}, total_mass_[2] = {0, 0}, gain_per_mass_[2] = {1, 1};
     int polish_count_ = 0;
     const std::int64_t first_work_;
     std::int64_t search_work_ = 0;

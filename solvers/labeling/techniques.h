@@ -20,7 +20,7 @@ struct Techniques {
     bool gomory_cuts = true;       ///< gomory_cuts.h
     bool fixing = true;            ///< of labels by the bounds of their reduced costs
     bool restarts = true;          ///< after fixing at the root
-    bool strong_branching = true;  ///< off: the most fractional label
+    bool strong_branching = true;  ///< off: by a guess from the relaxation alone
 };
 
 /// Throws InputError naming a value that is not allowed, or an extra option that is none of these.
