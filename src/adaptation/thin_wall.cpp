@@ -24,6 +24,7 @@ std::vector<int> ThinWallTest::faces_at(const ClosestPoint& point) const {
     const FaceHandle face(point.surface.face);
     for (const VertexHandle vertex : face_vertices(mesh_, face)) {
         if ((mesh_.point(vertex) - point.position).norm() > touch_) continue;
+        if (mesh_.is_boundary(vertex)) return {};
         std::vector<int> faces;
         for (const FaceHandle other : mesh_.vf_range(vertex)) faces.push_back(other.idx());
         return faces;
@@ -32,10 +33,10 @@ std::vector<int> ThinWallTest::faces_at(const ClosestPoint& point) const {
     for (const HalfedgeHandle halfedge : mesh_.fh_range(face)) {
         const Vec3& a = mesh_.point(mesh_.from_vertex_handle(halfedge));
         const Vec3& b = mesh_.point(mesh_.to_vertex_handle(halfedge));
+        if (distance_to_segment(point.position, a, b) > touch_) continue;
         const FaceHandle other = mesh_.face_handle(mesh_.opposite_halfedge_handle(halfedge));
-        if (other.is_valid() && distance_to_segment(point.position, a, b) <= touch_) {
-            faces.push_back(other.idx());
-        }
+        if (!other.is_valid()) return {};
+        faces.push_back(other.idx());
     }
     return faces;
 }
@@ -62,8 +63,9 @@ bool ThinWallTest::operator()(const Vec3& a, const Vec3& b) const {
     if (p.surface.face < 0 || q.surface.face < 0) return false;
     if ((a - b).norm() < kUnclear * touch_) return false;
     constexpr double kOpposite = -0.5;
-    const std::vector<int> faces_at_q = faces_at(q);
-    for (int f : faces_at(p)) {
+    const std::vector<int> faces_at_p = faces_at(p), faces_at_q = faces_at(q);
+    if (faces_at_p.empty() || faces_at_q.empty()) return false;
+    for (int f : faces_at_p) {
         const Vec3 normal = face_normal(mesh_, FaceHandle(f));
         for (int g : faces_at_q) {
             if (normal.dot(face_normal(mesh_, FaceHandle(g))) > kOpposite) return false;

@@ -22,6 +22,8 @@ public:
     bool operator()(const Vec3& a, const Vec3& b) const;
 
 private:
+    /// Faces within touch; empty on a boundary, where another sheet may begin (repair cuts surfaces
+    /// that have no two sides, for one) and the closest face is chance.
     std::vector<int> faces_at(const ClosestPoint& point) const;
     bool is_connected_inside(int from, int to, const Vec3& center, double radius) const;
 
