@@ -97,7 +97,8 @@ LpEngine::Outcome Relaxation::solve(RunControl& control, std::int64_t max_iterat
         const auto outcome = engine_->solve(chunk);
         max_iterations -= engine_->iterations();
         const std::int64_t size = row_count() + column_count();
-        const bool must_stop = control.spend(2 * size + engine_->iterations() * size / 5);
+        // Measured: starting costs by size, an iteration hardly (large problems are sparser).
+        const bool must_stop = control.spend(3 * size + engine_->iterations() * (800 + size / 100));
         if (outcome == LpEngine::Outcome::Infeasible) {
             if (prove_infeasible()) {
                 bound_ = kNoValue;

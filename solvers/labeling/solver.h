@@ -80,8 +80,8 @@ public:
                               const SolveOptions& options = {}) const = 0;
 };
 
-/// Solvers by name. The registry of this library holds greedy, local-search, branch-and-bound and
-/// auto; labeling_mip adds cbc.
+/// Solvers by name. The registry of this library holds greedy, local-search, lns, branch-and-bound
+/// and auto; labeling_mip adds cbc.
 class SolverRegistry {
 public:
     void add(std::shared_ptr<const Solver> solver);
@@ -93,7 +93,7 @@ private:
     std::map<std::string, std::shared_ptr<const Solver>, std::less<>> solvers_;
 };
 
-/// greedy, local-search, branch-and-bound, auto.
+/// greedy, local-search, lns, branch-and-bound, auto.
 SolverRegistry builtin_solvers();
 
 }  // namespace labeling
