@@ -10,7 +10,7 @@ namespace fcn {
 
 namespace {
 
-constexpr double kCreaseAngle = 40 * std::numbers::pi / 180;
+constexpr double kCreaseAngle = 20 * std::numbers::pi / 180;
 /// A piece is whole when it lacks less than this share of the length.
 constexpr double kWhole = 0.999;
 

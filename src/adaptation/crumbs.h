@@ -22,7 +22,7 @@ struct CrumbOptions {
 
 /// Connected pieces of the kept network shorter than min_length. Not crumbs: pieces with a pinned
 /// segment, pieces that a cluster of short segments may still join to others, whole components of
-/// the initial network, and whole curves of it that are creases (40 degrees and more).
+/// the initial network, and whole curves of it that are creases (20 degrees and more).
 std::vector<Crumb> find_crumbs(const WorkingNetwork& network, const NetworkGraph& graph,
                                const std::vector<bool>& kept, const CrumbOptions& options);
 
