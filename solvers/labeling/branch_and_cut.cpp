@@ -135,8 +135,10 @@ private:
             }
             if (control_.should_stop()) return NodeOutcome::Stopped;
             if (!fix_by_bounds(true)) return NodeOutcome::Pruned;
-            if (add_violated_rules() > 0) continue;
-            if (accept_if_integral()) {
+            // A few rules are not worth an LP of their own: they go with the cuts.
+            const std::size_t rules = add_violated_rules();
+            if (rules > kManyRules) continue;
+            if (rules == 0 && accept_if_integral()) {
                 if (is_prunable(root_bound_)) return NodeOutcome::Pruned;
                 return NodeOutcome::Branch;
             }
@@ -148,8 +150,8 @@ private:
             if (round % 8 == 3 || (stalled == 1)) polish();
             intensify();
             if (is_prunable(root_bound_)) return NodeOutcome::Pruned;
-            std::size_t added = 0;
-            if (stalled < 3) added = add_cliques({}) + add_triples();
+            std::size_t added = rules;
+            if (stalled < 3) added += add_cliques({}) + add_triples();
             if (added == 0 || stalled >= 2) {
                 if (gomory_rounds++ >= kMostGomoryRounds || stalled > 8) {
                     return NodeOutcome::Branch;
@@ -625,6 +627,7 @@ private:
     static constexpr Value kHuge = Value{1} << 60;
     static constexpr std::int64_t kSearchShare = 6;    ///< one part in so many
     static constexpr std::int64_t kSearchChunk = 500;  ///< ticks per label
+    static constexpr std::size_t kManyRules = 20;
     static constexpr int kMostGomoryRounds = 30;
     static constexpr int kNodeRounds = 3;
     static constexpr int kMostStrong = 12;

@@ -21,9 +21,11 @@ ProblemFormat problem_format(const std::filesystem::path& file) {
     if (extension == ".lab") return ProblemFormat::Lab;
     if (extension == ".mps") return ProblemFormat::Mps;
     if (extension == ".lp") return ProblemFormat::Lp;
+    if (extension == ".opb") return ProblemFormat::Opb;
+    if (extension == ".cfn") return ProblemFormat::Cfn;
     throw InputError(file.string() +
-                     ": unknown kind of labeling problem; expected .lab, .mps or .lp, or one of "
-                     "these with .gz");
+                     ": unknown kind of labeling problem; expected .lab, .mps, .lp, .opb or "
+                     ".cfn, or one of these with .gz");
 }
 
 LabelingProblem parse_problem(std::string_view text, ProblemFormat format,
@@ -35,6 +37,10 @@ LabelingProblem parse_problem(std::string_view text, ProblemFormat format,
             return detail::parse_mps(text, source);
         case ProblemFormat::Lp:
             return detail::parse_lp(text, source);
+        case ProblemFormat::Opb:
+            return detail::parse_opb(text, source);
+        case ProblemFormat::Cfn:
+            throw InputError(std::string(source) + ": CFN files are written, not read");
     }
     throw LogicError("unknown problem format");
 }
@@ -52,6 +58,10 @@ std::string format_problem(const LabelingProblem& problem, ProblemFormat format,
             return detail::format_mps(linear_model(problem, rows));
         case ProblemFormat::Lp:
             return detail::format_lp(linear_model(problem, rows));
+        case ProblemFormat::Opb:
+            return detail::format_opb(linear_model(problem, rows));
+        case ProblemFormat::Cfn:
+            return detail::format_cfn(problem);
     }
     throw LogicError("unknown problem format");
 }

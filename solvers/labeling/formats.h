@@ -10,13 +10,14 @@
 
 namespace labeling {
 
-/// Lab: the native text format. Mps: free MPS. Lp: CPLEX LP.
-enum class ProblemFormat { Lab, Mps, Lp };
+/// Lab: the native text format. Mps: free MPS. Lp: CPLEX LP. Opb: pseudo-Boolean. Cfn: cost function
+/// network of toulbar2, written only.
+enum class ProblemFormat { Lab, Mps, Lp, Opb, Cfn };
 
-/// By file name: .lab, .mps, .lp, each also with .gz behind it. Throws InputError on another name.
+/// By file name: .lab, .mps, .lp, .opb, .cfn, each also with .gz behind it. Throws InputError on another name.
 ProblemFormat problem_format(const std::filesystem::path& file);
 
-/// Reads a problem; .gz is decompressed. MPS and LP are read as far as write_problem writes them:
+/// Reads a problem; .gz is decompressed. MPS, LP and OPB are read as far as write_problem writes them:
 /// binary columns are labels, continuous columns y with rows y <= b_i, y <= b_j are bonuses.
 /// Throws InputError "file:line: ..." on anything else.
 LabelingProblem read_problem(const std::filesystem::path& file);
@@ -24,7 +25,7 @@ LabelingProblem read_problem(const std::filesystem::path& file);
 /// The same from text; `source` stands for the file in messages.
 LabelingProblem parse_problem(std::string_view text, ProblemFormat format, std::string_view source);
 
-/// Text of a problem. `rows` matters for MPS and LP alone. MPS minimises the negated objective,
+/// Text of a problem. `rows` matters for MPS, LP and OPB alone. MPS minimises the negated objective,
 /// because not every reader knows OBJSENSE; LP maximises. Names of labels are kept by Lab alone.
 std::string format_problem(const LabelingProblem& problem, ProblemFormat format,
                            RowStyle rows = RowStyle::Strengthened);

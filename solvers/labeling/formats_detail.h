@@ -18,6 +18,11 @@ std::string format_mps(const LinearModel& model);
 LabelingProblem parse_lp(std::string_view text, std::string_view source);
 std::string format_lp(const LinearModel& model);
 
+LabelingProblem parse_opb(std::string_view text, std::string_view source);
+std::string format_opb(const LinearModel& model);
+
+std::string format_cfn(const LabelingProblem& problem);
+
 /// Appends the decimal digits of a number.
 void append(std::string& out, std::int64_t number);
 

@@ -8,7 +8,10 @@ namespace labeling {
 /// Dual simplex of Clp behind LpEngine.
 LpFactory clp_factory();
 
-/// greedy, local-search, branch-and-bound and auto with LP bounds, and cbc.
+/// greedy, local-search, lns, branch-and-bound and auto with LP bounds, and cbc.
+SolverRegistry linked_solvers();
+
+/// The same and all external programs (see external_solver.h), installed or not.
 SolverRegistry all_solvers();
 
 }  // namespace labeling

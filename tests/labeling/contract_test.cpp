@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <sstream>
+#include <thread>
 
 #include "labeling/errors.h"
 #include "labeling/problems.h"
@@ -132,6 +133,26 @@ TEST_P(Contract, SameOptionsGiveTheSameResult) {
     EXPECT_EQ(a.stop_reason, b.stop_reason);
     if (GetParam() != "cbc") {
         EXPECT_EQ(a.work, b.work);
+    }
+}
+
+TEST_P(Contract, CallsAtTheSameTimeGiveTheSameResult) {
+    std::mt19937_64 engine(83);
+    const LabelingProblem problem = curve_bundle(engine, {});
+    SolveOptions options;
+    options.work_limit = 100000;
+    const SolveResult alone = solver->solve(problem, options);
+    std::vector<SolveResult> together(3);
+    std::vector<std::thread> threads;
+    for (SolveResult& result : together) {
+        threads.emplace_back([&] { result = solver->solve(problem, options); });
+    }
+    for (std::thread& thread : threads) thread.join();
+    ASSERT_TRUE(alone.solution);
+    for (const SolveResult& result : together) {
+        ASSERT_TRUE(result.solution);
+        EXPECT_EQ(result.solution->labels, alone.solution->labels);
+        EXPECT_EQ(result.bound, alone.bound);
     }
 }
 

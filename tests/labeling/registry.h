@@ -7,10 +7,10 @@
 
 namespace labeling_test {
 
-/// Every solver that this build has.
+/// Every solver that this build has linked.
 inline labeling::SolverRegistry every_solver() {
 #ifdef LABELING_WITH_MIP
-    return labeling::all_solvers();
+    return labeling::linked_solvers();
 #else
     return labeling::builtin_solvers();
 #endif
