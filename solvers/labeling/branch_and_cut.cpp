@@ -544,6 +544,7 @@ private:
             for (Label i = 0; i < problem_.label_count(); ++i) {
                 if (propagator_.is_free(i)) return i;
             }
+            settle_leaf(node);  // fixing by bounds decided the last labels
             is_settled = true;
             return -1;
         }
