@@ -126,7 +126,7 @@ Command add_convert_command(CLI::App& program) {
         ->add_option("--detail", arguments->detail,
                      "Of a network: dense polylines or segments (default: segments if any)")
         ->check(CLI::IsMember({"dense", "segments"}));
-    parser->add_option("--rows", arguments->rows, "Of an .mps or .lp: strengthened, paper")
+    parser->add_option("--rows", arguments->rows, "Of an .mps, .lp or .opb: strengthened, paper")
         ->check(CLI::IsMember({"strengthened", "paper"}))
         ->capture_default_str();
     add_mesh_arguments(*parser, arguments->mesh);

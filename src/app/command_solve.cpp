@@ -10,6 +10,8 @@
 #include "app/outputs.h"
 #include "app/progress.h"
 #include "labeling/formats.h"
+#include "labeling/proving_search.h"
+#include "labeling_mip/mip_solvers.h"
 
 namespace fcn::app {
 namespace {
@@ -21,6 +23,7 @@ struct SolveArguments {
     std::string solver = "auto";
     std::string start_path;
     std::string output;
+    std::string proof_path;
     std::vector<std::string> extra;
 };
 
@@ -77,9 +80,31 @@ labeling::SolveResult run_solver(const labeling::LabelingProblem& problem,
     return find_solver(arguments.solver)->solve(problem, options);
 }
 
+/// Writes the proof; false when there is none (interrupted, or larger than ProofOptions allows).
+bool write_proof(const labeling::LabelingProblem& problem, const labeling::SolveResult& result,
+                 const SolveArguments& arguments) {
+    labeling::ProofOptions options;
+    options.stop = arguments.limits.solve_options(arguments.common).stop;
+    const labeling::ProofResult proof =
+        labeling::prove_optimality(problem, result.solution, labeling::clp_factory(), options);
+    if (!proof.is_complete) {
+        print_note(arguments.common, fmt::format("no proof after {} nodes", proof.nodes));
+        return false;
+    }
+    save_text(arguments.proof_path, proof.proof);
+    print_note(arguments.common,
+               fmt::format("{}: {}, {} nodes, {} bytes", arguments.proof_path,
+                           proof.solution ? fmt::format("value {} proven", proof.solution->value)
+                                          : std::string("infeasibility proven"),
+                           proof.nodes, proof.proof.size()));
+    return true;
+}
+
 int solve(const SolveArguments& arguments) {
     if (!arguments.output.empty())
         prepare_output(arguments.output, OutputKind::Other, arguments.common);
+    if (!arguments.proof_path.empty())
+        prepare_output(arguments.proof_path, OutputKind::Other, arguments.common);
     const labeling::LabelingProblem problem = load_problem(arguments.problem_path);
     const labeling::SolveResult result = run_solver(problem, arguments);
     if (result.solution && !arguments.output.empty())
@@ -91,7 +116,9 @@ int solve(const SolveArguments& arguments) {
     if (result.stop_reason == labeling::StopReason::Interrupted && result.solution)
         print_note(arguments.common, "interrupted: this is the best solution so far");
     const bool is_answered = result.solution || result.status == labeling::SolveStatus::Infeasible;
-    return is_answered ? kDone : kNoResult;
+    if (!is_answered) return kNoResult;
+    if (arguments.proof_path.empty()) return kDone;
+    return write_proof(problem, result, arguments) ? kDone : kNoResult;
 }
 
 }  // namespace
@@ -101,12 +128,15 @@ Command add_solve_command(CLI::App& program) {
     CLI::App* parser = program.add_subcommand("solve", "Solve a labeling problem");
     parser
         ->add_option("PROBLEM", arguments->problem_path,
-                     ".lab, .mps or .lp, .gz allowed; - for .lab on standard input")
+                     ".lab, .mps, .lp or .opb, .gz allowed; - for .lab on standard input")
         ->required();
     parser->add_option("--solver", arguments->solver, "One of: " + solver_names())
         ->capture_default_str();
     parser->add_option("-o,--output", arguments->output, "Solution file (- for standard output)");
     parser->add_option("--start", arguments->start_path, "Solution file to start from");
+    parser->add_option("--proof", arguments->proof_path,
+                       "Then prove the value optimal by a search of its own and write the proof "
+                       "(VeriPB 2.0, against the problem as .opb)");
     parser->add_option("--option", arguments->extra, "Option of the solver, NAME=VALUE; repeatable")
         ->expected(1)
         ->take_all();

@@ -7,6 +7,7 @@
 #include "app/inputs.h"
 #include "app/json_summary.h"
 #include "labeling/formats.h"
+#include "labeling/proof_checker.h"
 
 namespace fcn::app {
 namespace {
@@ -15,7 +16,21 @@ struct VerifyArguments {
     CommonArguments common;
     std::string problem_path;
     std::string solution_path;
+    std::string proof_path;
 };
+
+/// What is wrong with the proof that no labeling is better than `value`; empty: nothing.
+std::string fault_of_proof(const labeling::LabelingProblem& problem, labeling::Value value,
+                           const std::string& path) {
+    const labeling::ProofCheck check = labeling::check_proof(
+        labeling::format_problem(problem, labeling::ProblemFormat::Opb), read_text(path));
+    if (!check.is_valid) return path + ": " + check.message;
+    if (!check.lower) return path + " proves that there is no solution";
+    if (*check.lower != -value)
+        return fmt::format("{} proves that no labeling is better than {}, not {}", path,
+                           -*check.lower, value);
+    return {};
+}
 
 int verify(const VerifyArguments& arguments) {
     if (arguments.problem_path == "-" && arguments.solution_path == "-")
@@ -24,7 +39,11 @@ int verify(const VerifyArguments& arguments) {
     const labeling::Solution solution = labeling::parse_solution(read_text(arguments.solution_path),
                                                                  arguments.solution_path, problem);
     const labeling::SolutionCheck check = labeling::check_solution(problem, solution);
-    const bool is_right = check.is_feasible && check.value_matches;
+    std::string fault = check.is_feasible && check.value_matches ? "" : check.message;
+    const bool has_proof = !arguments.proof_path.empty();
+    if (fault.empty() && has_proof)
+        fault = fault_of_proof(problem, solution.value, arguments.proof_path);
+    const bool is_right = fault.empty();
     if (arguments.common.is_json) {
         Json conflicts = Json::array();
         for (const labeling::Conflict& conflict : check.violated_conflicts)
@@ -37,11 +56,12 @@ int verify(const VerifyArguments& arguments) {
                     {"value_matches", check.value_matches},
                     {"violated_conflicts", conflicts},
                     {"violated_rules", rules},
-                    {"message", check.message}});
+                    {"proven_optimal", has_proof && is_right},
+                    {"message", fault}});
     } else if (is_right) {
-        fmt::print("feasible, value {}\n", check.value);
+        fmt::print("feasible, value {}{}\n", check.value, has_proof ? ", proven optimal" : "");
     } else {
-        fmt::print("WRONG: {}\n", check.message);
+        fmt::print("WRONG: {}\n", fault);
     }
     return is_right ? kDone : kViolation;
 }
@@ -59,9 +79,13 @@ Command add_verify_command(CLI::App& program) {
         ->required();
     parser->add_option("SOLUTION", arguments->solution_path, "Solution (- for standard input)")
         ->required();
+    parser->add_option("--proof", arguments->proof_path,
+                       "Proof of optimality in VeriPB's format, to be checked as well");
     add_common_arguments(*parser, arguments->common);
     parser->footer(
-        "Exit code 5 when the solution is infeasible or its stated value is wrong.\n"
+        "Exit code 5 when the solution is infeasible, its stated value is wrong, or the proof "
+        "does\n"
+        "not show that it is optimal.\n"
         "Example:\n  scalefcn verify problem_1.lab.gz best.sol");
     return {parser, [arguments] { return verify(*arguments); }};
 }

@@ -5,7 +5,7 @@ import json
 import random
 import unittest
 
-from scalefcn_process import DONE, NO_RESULT, PROBLEM, ProgramTest
+from scalefcn_process import DONE, NO_RESULT, PROBLEM, VIOLATION, ProgramTest
 
 
 def random_problem(seed):
@@ -44,6 +44,25 @@ class Solve(ProgramTest):
                     self.assertEqual((answer["status"], answer["value"], answer["bound"]),
                                      ("optimal", best, best))
                     self.succeed("verify", name, "s.sol")
+
+    def test_proofs_are_checked_and_belong_to_their_problem(self):
+        for seed in range(6):
+            text, best = random_problem(seed)
+            name = self.write(f"random_{seed}.lab", text)
+            self.succeed("solve", name, "-o", "s.sol", "--proof", "s.pbp")
+            self.assertIn(f"value {best}, proven optimal",
+                          self.succeed("verify", name, "s.sol", "--proof", "s.pbp").stdout)
+            answer = self.succeed_json("verify", name, "s.sol", "--proof", "s.pbp")
+            self.assertTrue(answer["proven_optimal"])
+        # The same proof for another objective, and a proof that ends too early.
+        other = self.write("other.lab", text.replace("l 1 ", "l 1 1"))
+        self.succeed("solve", other, "-o", "o.sol")
+        self.succeed("verify", other, "o.sol", "--proof", "s.pbp", code=VIOLATION)
+        proof = (self.folder / "s.pbp").read_text()
+        self.write("cut.pbp", proof[:proof.index("conclusion")])
+        self.succeed("verify", name, "s.sol", "--proof", "cut.pbp", code=VIOLATION)
+        # VeriPB checks it against the exported problem.
+        self.succeed("convert", name, "s.opb")
 
     def test_heuristics_are_feasible_and_claim_no_bound(self):
         text, best = random_problem(99)
