@@ -1,7 +1,8 @@
 // labeling_solvers FILE|FOLDER... [--solvers A,B] [--time SECONDS] [--work TICKS] [--seed N]
 //                  [--set KEY=VALUE]... [--permute N]
 // Solves labeling problems with several solvers and prints a Markdown table: value, bound, gap,
-// processor seconds (children included), wall seconds, nodes, and when the last better value came.
+// processor seconds (children included), wall seconds, those by an external solver's clock, nodes,
+// and when the last better value came.
 // --permute renames the labels (N = 0: as they are), to see how much is luck.
 #include <sys/resource.h>
 
@@ -156,9 +157,12 @@ void print_row(const fs::path& file, const LabelingProblem& problem,
             last_value = point.seconds;
         }
     }
-    std::printf(" %.2f | %.2f | %.2f | %.0f | %lld |\n", seconds, result.seconds, last_value,
+    const auto own = result.statistics.find("solver_seconds");
+    std::printf(" %.2f | %.2f | %.2f | %.2f | %.0f | %lld |", seconds, result.seconds,
+                own == result.statistics.end() ? result.seconds : own->second, last_value,
                 nodes == result.statistics.end() ? 0.0 : nodes->second,
                 static_cast<long long>(result.work));
+    std::printf(" %s |\n", result.message.c_str());
     std::fflush(stdout);
 }
 
@@ -169,8 +173,9 @@ void run(const Arguments& arguments) {
     const labeling::SolverRegistry solvers = labeling::builtin_solvers();
 #endif
     std::printf(
-        "| problem | solver | value | bound | gap | CPU s | s | last value at | nodes | work |\n"
-        "|---|---|---|---|---|---|---|---|---|---|\n");
+        "| problem | solver | value | bound | gap | CPU s | s | own s | last value at | nodes "
+        "| work | message |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const fs::path& file : arguments.files) {
         LabelingProblem problem = labeling::read_problem(file);
         if (arguments.permutation > 0) problem = renamed(problem, arguments.permutation);

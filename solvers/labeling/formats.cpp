@@ -23,9 +23,10 @@ ProblemFormat problem_format(const std::filesystem::path& file) {
     if (extension == ".lp") return ProblemFormat::Lp;
     if (extension == ".opb") return ProblemFormat::Opb;
     if (extension == ".cfn") return ProblemFormat::Cfn;
+    if (extension == ".graph") return ProblemFormat::Metis;
     throw InputError(file.string() +
-                     ": unknown kind of labeling problem; expected .lab, .mps, .lp, .opb or "
-                     ".cfn, or one of these with .gz");
+                     ": unknown kind of labeling problem; expected .lab, .mps, .lp, .opb, "
+                     ".cfn or .graph, or one of these with .gz");
 }
 
 LabelingProblem parse_problem(std::string_view text, ProblemFormat format,
@@ -41,6 +42,8 @@ LabelingProblem parse_problem(std::string_view text, ProblemFormat format,
             return detail::parse_opb(text, source);
         case ProblemFormat::Cfn:
             throw InputError(std::string(source) + ": CFN files are written, not read");
+        case ProblemFormat::Metis:
+            return detail::parse_metis(text, source);
     }
     throw LogicError("unknown problem format");
 }
@@ -62,6 +65,8 @@ std::string format_problem(const LabelingProblem& problem, ProblemFormat format,
             return detail::format_opb(linear_model(problem, rows));
         case ProblemFormat::Cfn:
             return detail::format_cfn(problem);
+        case ProblemFormat::Metis:
+            return detail::format_metis(problem);
     }
     throw LogicError("unknown problem format");
 }

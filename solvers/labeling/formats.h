@@ -11,10 +11,11 @@
 namespace labeling {
 
 /// Lab: the native text format. Mps: free MPS. Lp: CPLEX LP. Opb: pseudo-Boolean. Cfn: cost function
-/// network of toulbar2, written only.
-enum class ProblemFormat { Lab, Mps, Lp, Opb, Cfn };
+/// network of toulbar2, written only. Metis: graph with vertex weights, for maximum weight
+/// independent set; refuses rules and negative weights.
+enum class ProblemFormat { Lab, Mps, Lp, Opb, Cfn, Metis };
 
-/// By file name: .lab, .mps, .lp, .opb, .cfn, each also with .gz behind it. Throws InputError on another name.
+/// By file name: .lab, .mps, .lp, .opb, .cfn, .graph, each also with .gz behind it. Throws InputError on another name.
 ProblemFormat problem_format(const std::filesystem::path& file);
 
 /// Reads a problem; .gz is decompressed. MPS, LP and OPB are read as far as write_problem writes them:

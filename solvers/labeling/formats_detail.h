@@ -23,6 +23,9 @@ std::string format_opb(const LinearModel& model);
 
 std::string format_cfn(const LabelingProblem& problem);
 
+LabelingProblem parse_metis(std::string_view text, std::string_view source);
+std::string format_metis(const LabelingProblem& problem);
+
 /// Appends the decimal digits of a number.
 void append(std::string& out, std::int64_t number);
 

@@ -65,6 +65,8 @@ std::string extension(ProblemFormat format) {
             return "opb";
         case ProblemFormat::Cfn:
             return "cfn";
+        case ProblemFormat::Metis:
+            return "graph";
     }
     throw LogicError("unknown problem format");
 }

@@ -236,6 +236,7 @@ def solve_cp_sat(arguments):
     solver = cp_model.CpSolver()
     solver.parameters.num_workers = arguments.threads
     solver.parameters.random_seed = arguments.seed
+    solver.parameters.linearization_level = 2
     solver.parameters.relative_gap_limit = arguments.gap
     left = time_left(arguments)
     if left is not None:

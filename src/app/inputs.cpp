@@ -21,7 +21,8 @@ constexpr std::array<std::string_view, 6> kMeshExtensions{".off", ".obj",  ".ply
                                                           ".stl", ".mesh", ".msh"};
 constexpr std::array<std::string_view, 9> kNetworkExtensions{
     ".fcn.json", ".obj", ".ply", ".vtp", ".mesh", ".msh", ".sharp", ".fl", ".polylines.txt"};
-constexpr std::array<std::string_view, 5> kProblemExtensions{".lab", ".mps", ".lp", ".opb", ".cfn"};
+constexpr std::array<std::string_view, 6> kProblemExtensions{".lab", ".mps", ".lp",
+                                                             ".opb", ".cfn", ".graph"};
 
 template <std::size_t size>
 bool is_one_of(const std::string& extension, const std::array<std::string_view, size>& extensions) {

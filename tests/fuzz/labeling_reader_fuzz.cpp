@@ -1,6 +1,6 @@
-// Fuzz target for the readers of labeling problems (.lab, MPS, LP) and of solutions: each input
-// goes to all of them. Only InputError may escape. What a reader accepts must come back the same
-// from every format, and the solvers must live through it.
+// Fuzz target for the readers of labeling problems (.lab, MPS, LP, OPB, METIS) and of solutions:
+// each input goes to all of them. Only InputError may escape. What a reader accepts must come back
+// the same from every format, and the solvers must live through it.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -67,7 +67,8 @@ void check_solution_reader(const std::string& text) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text(reinterpret_cast<const char*>(data), size);
-    for (ProblemFormat format : {ProblemFormat::Lab, ProblemFormat::Mps, ProblemFormat::Lp}) {
+    for (ProblemFormat format : {ProblemFormat::Lab, ProblemFormat::Mps, ProblemFormat::Lp,
+                                 ProblemFormat::Opb, ProblemFormat::Metis}) {
         LabelingProblem problem;
         try {
             problem = labeling::parse_problem(text, format, "fuzz");
