@@ -80,7 +80,7 @@ BENCHMARK(detect_conflicts)
     ->Complexity();
 BENCHMARK(resample_open_arc)
     ->RangeMultiplier(10)
-    ->Range(1000, 100000)
+    ->Range(1000, 1000000)
     ->Unit(benchmark::kMillisecond)
     ->Complexity();
 

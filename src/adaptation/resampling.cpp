@@ -22,13 +22,37 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kFullWindowSamples = 400;
 constexpr double kWindowFactor = 3.0;
 
+/// Integral distance of the polyline from the chord; step(k) is the length from sample k - 1 to k.
+template <class Step>
+double integral_distance(std::span<const Vec3> samples, int first, int last, Step step) {
+    const Vec3& a = samples[first];
+    const Vec3 axis = samples[last] - a;
+    const double squared = axis.squaredNorm();
+    const double inverse = squared > 0 ? 1.0 / squared : 0.0;
+    double total = 0;
+    double previous = 0;
+    for (int k = first + 1; k <= last; ++k) {
+        const Vec3 d = samples[k] - a;
+        const double t = std::clamp(d.dot(axis) * inverse, 0.0, 1.0);
+        const double distance = k == last ? 0.0 : (d - t * axis).norm();
+        total += step(k) * (previous + distance) / 2;
+        previous = distance;
+    }
+    return total;
+}
+
 /// Polyline with prefix lengths and the edge cost.
 class ChordCosts {
 public:
     ChordCosts(std::span<const Vec3> points, const ScaleInterval& scale, double evenness)
-        : points_(points), scale_(scale), evenness_(evenness), prefix_(points.size(), 0.0) {
+        : points_(points),
+          scale_(scale),
+          evenness_(evenness),
+          steps_(points.size(), 0.0),
+          prefix_(points.size(), 0.0) {
         for (std::size_t k = 1; k < points.size(); ++k) {
-            prefix_[k] = prefix_[k - 1] + (points[k] - points[k - 1]).norm();
+            steps_[k] = (points[k] - points[k - 1]).norm();
+            prefix_[k] = prefix_[k - 1] + steps_[k];
         }
         window_ = static_cast<int>(points.size()) <= kFullWindowSamples
                       ? kInfinity
@@ -49,7 +73,8 @@ public:
     double deviation(int i, int j, double length) const {
         const double along = arc_length(i, j);
         if (along - length <= 1e-12 * along) return 0.0;
-        return chord_deviation(points_, i, j) / (scale_.rmin * scale_.rmin);
+        return integral_distance(points_, i, j, [this](int k) { return steps_[k]; }) /
+               (scale_.rmin * scale_.rmin);
     }
 
     /// First sample that a chord of at least rmin from i can reach: the arc is never shorter.
@@ -64,7 +89,7 @@ private:
     const ScaleInterval& scale_;
     double evenness_;
     double window_ = kInfinity;
-    std::vector<double> prefix_;
+    std::vector<double> steps_, prefix_;
 };
 
 /// Shortest chains from sample 0 with at least `layers` segments: states are (sample, number of
@@ -260,20 +285,8 @@ Resampling resample_closed(std::span<const Vec3> samples, const ScaleInterval& s
 }  // namespace
 
 double chord_deviation(std::span<const Vec3> samples, int first, int last) {
-    const Vec3& a = samples[first];
-    const Vec3 axis = samples[last] - a;
-    const double squared = axis.squaredNorm();
-    const double inverse = squared > 0 ? 1.0 / squared : 0.0;
-    double total = 0;
-    double previous = 0;
-    for (int k = first + 1; k <= last; ++k) {
-        const Vec3 d = samples[k] - a;
-        const double t = std::clamp(d.dot(axis) * inverse, 0.0, 1.0);
-        const double distance = k == last ? 0.0 : (d - t * axis).norm();
-        total += (samples[k] - samples[k - 1]).norm() * (previous + distance) / 2;
-        previous = distance;
-    }
-    return total;
+    return integral_distance(samples, first, last,
+                             [&](int k) { return (samples[k] - samples[k - 1]).norm(); });
 }
 
 Resampling resample_arc(std::span<const Vec3> samples, bool is_closed, const ScaleInterval& scale,
