@@ -234,12 +234,15 @@ void read_toulbar2_output(std::string_view output, ExternalAnswer& answer) {
             answer.value = -finite(reader, words[1]);
         } else if (words[0] == "No" && words.size() > 1 && words[1] == "solution") {
             answer.claim = Claim::Infeasible;
-        } else if (words[0] == "Dual" && words.size() > 2 && words[1] == "bound:") {
-            answer.bound = -finite(reader, words[2]);
+        } else if (words[0] == "Optimality" && words.size() > 3 && words[1] == "gap:") {
+            std::string_view lower = words[2];  // "[-12," and the upper bound behind it
+            if (lower.starts_with('[')) lower.remove_prefix(1);
+            if (lower.ends_with(',')) lower.remove_suffix(1);
+            answer.bound = -finite(reader, lower);
         } else if (words[0] == "New" && words.size() > 2 && words[1] == "solution:") {
             answer.value = -finite(reader, words[2]);
         }
-        const bool is_last = words[0] == "Optimum:" || words[0] == "No" || words[0] == "Primal";
+        const bool is_last = words[0] == "Optimum:" || words[0] == "No";
         for (std::size_t k = 0; is_last && k + 1 < words.size(); ++k) {
             if (words[k + 1].starts_with("seconds")) answer.seconds = number(words[k]);
             if (words[k + 1].starts_with("nodes")) answer.nodes = number(words[k]);

@@ -297,6 +297,46 @@ TEST_F(FakePrograms, GetTheStartAndTheirFolderIsRemoved) {
     EXPECT_FALSE(fs::exists(scratch));
 }
 
+TEST(Answers, AreReadAsTheProgramsWriteThem) {
+    using Claim = labeling::ExternalAnswer::Claim;
+    const auto glpk = labeling::read_answer(
+        AnswerFormat::Glpk, "c Problem:\ns mip 4 3 f 12\ni 1 1\nj 1 1\nj 2 0\nj 3 1\ne o f\n",
+        "+    12: mip =     not found yet <=              +inf        (1; 0)\n"
+        "+    40: >>>>>   1.200000000e+01 <=   1.450000000e+01  20.8% (4; 0)\n"
+        "Time used:   0.3 secs\n",
+        3);
+    EXPECT_EQ(glpk.claim, Claim::Feasible);
+    EXPECT_EQ(glpk.labels, (std::vector<std::uint8_t>{1, 0, 1}));
+    EXPECT_EQ(glpk.value, 12);
+    EXPECT_EQ(glpk.bound, 14.5);
+    EXPECT_EQ(glpk.seconds, 0.3);
+    const auto clasp = labeling::read_answer(
+        AnswerFormat::PseudoBoolean, "",
+        "c clasp version 3.3.5\no -5\no -13\nv -x1 x2 x3\nv x4\ns SATISFIABLE\n"
+        "c Time           : 2.004s (Solving: 2.00s)\n",
+        3);
+    EXPECT_EQ(clasp.claim, Claim::Feasible);
+    EXPECT_EQ(clasp.labels, (std::vector<std::uint8_t>{0, 1, 1}));
+    EXPECT_EQ(clasp.value, 13);
+    EXPECT_EQ(clasp.seconds, 2.004);
+    const auto toulbar2 = labeling::read_answer(
+        AnswerFormat::Toulbar2, "0 1 1\n",
+        "c /usr/bin/toulbar2  version : 1.1.1\nNew solution: -12 (0 backtracks, 3 nodes, depth 2)\n"
+        "Optimality gap: [-15, -12] 25.000 % (4 backtracks, 9 nodes)\n"
+        "New solution: -13 (5 backtracks, 11 nodes, depth 2)\n"
+        "Time limit expired... Aborting...\n",
+        3);
+    EXPECT_EQ(toulbar2.claim, Claim::Feasible);
+    EXPECT_EQ(toulbar2.value, 13);
+    EXPECT_EQ(toulbar2.bound, 15);
+    const auto proven = labeling::read_answer(
+        AnswerFormat::Toulbar2, "0 1 1\n",
+        "Optimum: -13 in 5 backtracks and 11 nodes ( 0 removals by DEE) and 0.250 seconds.\n", 3);
+    EXPECT_EQ(proven.claim, Claim::Optimal);
+    EXPECT_EQ(proven.seconds, 0.25);
+    EXPECT_EQ(proven.nodes, 11);
+}
+
 TEST(CommandTemplates, ArePlacedWordByWord) {
     const std::map<std::string, std::string> values{
         {"problem", "/a b/p.mps"}, {"time", ""}, {"seed", "7"}};

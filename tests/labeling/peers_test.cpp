@@ -30,7 +30,8 @@ protected:
         labeling::ProblemBuilder builder;
         builder.add_label(1);
         const SolveResult probe = solver->solve(builder.build());
-        if (probe.message.find("not installed") != std::string::npos) {
+        if (probe.message.find("not installed") != std::string::npos ||
+            probe.message.find("icense") != std::string::npos) {
             GTEST_SKIP() << probe.message;
         }
     }
