@@ -631,9 +631,9 @@ private:
     static constexpr std::size_t kManyRules = 20;
     static constexpr int kMostGomoryRounds = 30;
     static constexpr int kNodeRounds = 3;
-    static constexpr int kMostStrong = 12;
-    static constexpr int kPatience = 6;
-    static constexpr int kReliable = 4;
+    static constexpr int kMostStrong = 4;
+    static constexpr int kPatience = 3;
+    static constexpr int kReliable = 1;
     static constexpr std::int64_t kStrongIterations = 500;
 
     const LabelingProblem& problem_;
