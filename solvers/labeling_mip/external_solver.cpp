@@ -240,7 +240,8 @@ private:
         if (answer.nodes) statistics_["nodes"] = *answer.nodes;
         if (outcome.end == ProgramEnd::Crashed) {
             fail("the program died of signal " + std::to_string(outcome.signal));
-            answer.claim = std::min(answer.claim, Claim::Feasible);  // a last word is none
+            answer.claim = std::min(answer.claim, Claim::Feasible);  // labels can be checked,
+            answer.bound.reset();                                    // nothing else
         } else if (answer.claim == Claim::Failed) {
             return fail(answer.message.empty() ? "the program gave up" : answer.message);
         } else if (!unreadable.empty() && !is_stopped) {

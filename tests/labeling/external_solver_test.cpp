@@ -116,11 +116,13 @@ TEST_F(FakePrograms, ACrashIsNamed) {
     expect_failure(solve("os.kill(os.getpid(), signal.SIGSEGV)\n"), "signal 11");
     expect_failure(solve("sys.exit('out of luck')\n"), "out of luck");
     // What it wrote before it died counts as a solution, not as a proof.
-    const SolveResult late = solve(answer("status optimal\nvalue 13\nlabel 2\nlabel 3\n") +
-                                   "os.kill(os.getpid(), signal.SIGABRT)\n");
+    const SolveResult late =
+        solve(answer("status optimal\nbound 13\nvalue 13\nlabel 2\nlabel 3\n") +
+              "os.kill(os.getpid(), signal.SIGABRT)\n");
     expect_failure(late, "signal 6");
     ASSERT_TRUE(late.solution);
     EXPECT_EQ(late.solution->value, 13);
+    EXPECT_FALSE(late.bound);
 }
 
 TEST_F(FakePrograms, LiesAreRefused) {
