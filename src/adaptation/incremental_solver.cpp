@@ -21,10 +21,10 @@ using labeling::SolveResult;
 using labeling::SolveStatus;
 using labeling::Value;
 
-/// Work for all calls together when neither a work nor a time limit is given (ten to thirty seconds).
+/// Work for all calls together when neither a work nor a time limit is given (about ten seconds).
 /// A component may take half of what is left, so that one hard one does not starve the rest, and
 /// always gets enough for a good local search.
-constexpr std::int64_t kDefaultWork = 50'000'000;
+constexpr std::int64_t kDefaultWork = 100'000'000;
 constexpr std::int64_t kLeastWork = 2'000'000;
 
 /// Labels whose value single-label rules and conflicts with labels fixed to 1 decide; -1 = free.
