@@ -10,24 +10,26 @@
 
 namespace labeling {
 
-/// Lab: the native text format. Mps: free MPS. Lp: CPLEX LP. Opb: pseudo-Boolean. Cfn: cost function
-/// network of toulbar2, written only. Metis: graph with vertex weights, for maximum weight
+/// Lab: the native text format. Mps: free MPS. Lp: CPLEX LP. Opb: pseudo-Boolean. Cfn: cost
+/// function network of toulbar2, written only. Metis: graph with vertex weights, for maximum weight
 /// independent set; refuses rules and negative weights.
 enum class ProblemFormat { Lab, Mps, Lp, Opb, Cfn, Metis };
 
-/// By file name: .lab, .mps, .lp, .opb, .cfn, .graph, each also with .gz behind it. Throws InputError on another name.
+/// By file name: .lab, .mps, .lp, .opb, .cfn, .graph, each also with .gz behind it. Throws
+/// InputError on another name.
 ProblemFormat problem_format(const std::filesystem::path& file);
 
-/// Reads a problem; .gz is decompressed. MPS, LP and OPB are read as far as write_problem writes them:
-/// binary columns are labels, continuous columns y with rows y <= b_i, y <= b_j are bonuses.
+/// Reads a problem; .gz is decompressed. MPS, LP and OPB are read as far as write_problem writes
+/// them: binary columns are labels, continuous columns y with rows y <= b_i, y <= b_j are bonuses.
 /// Throws InputError "file:line: ..." on anything else.
 LabelingProblem read_problem(const std::filesystem::path& file);
 
 /// The same from text; `source` stands for the file in messages.
 LabelingProblem parse_problem(std::string_view text, ProblemFormat format, std::string_view source);
 
-/// Text of a problem. `rows` matters for MPS, LP and OPB alone. MPS minimises the negated objective,
-/// because not every reader knows OBJSENSE; LP maximises. Names of labels are kept by Lab alone.
+/// Text of a problem. `rows` matters for MPS, LP and OPB alone. MPS minimises the negated
+/// objective, because not every reader knows OBJSENSE; LP maximises. Names of labels are kept by
+/// Lab alone.
 std::string format_problem(const LabelingProblem& problem, ProblemFormat format,
                            RowStyle rows = RowStyle::Strengthened);
 

@@ -40,8 +40,8 @@ struct ExternalProgram {
 std::shared_ptr<const Solver> make_external_solver(ExternalProgram program);
 
 /// glpk, clasp, toulbar2, highs, scip, cp-sat and gurobi, installed or not, and `external`, which
-/// runs the options `command`, `format` (mps | lp | opb | cfn | graph | lab) and `answer` (worker | glpk |
-/// pb | toulbar2 | columns).
+/// runs the options `command`, `format` (mps | lp | opb | cfn | graph | lab) and `answer` (worker |
+/// glpk | pb | toulbar2 | columns).
 void add_external_solvers(SolverRegistry& registry);
 
 }  // namespace labeling
