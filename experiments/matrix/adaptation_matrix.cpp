@@ -163,6 +163,13 @@ void print_sums(const std::vector<Case>& cases, const std::vector<std::string>& 
     }
 }
 
+/// What a network has that best mode may not keep.
+std::string what_it_keeps(const Row& row) {
+    if (row.counted == 0 && row.crumbs == 0) return "";
+    return " (" + std::to_string(row.counted) + " violations, " + std::to_string(row.crumbs) +
+           " crumbs)";
+}
+
 void print_exceptions(const std::vector<Case>& cases, const std::vector<std::string>& variants) {
     std::printf("\nBest mode falls short in:\n");
     int count = 0;
@@ -189,9 +196,8 @@ void print_exceptions(const std::vector<Case>& cases, const std::vector<std::str
         for (const std::string& variant : variants) {
             const Row& other = c.at(variant);
             if (other.coverage > row.coverage + 5e-5) {
-                list(("coverage below " + variant + (other.counted > 0 ? " (not conforming)" : ""))
-                         .c_str(),
-                     row.coverage, other.coverage);
+                list(("coverage below " + variant + what_it_keeps(other)).c_str(), row.coverage,
+                     other.coverage);
             }
         }
     }
