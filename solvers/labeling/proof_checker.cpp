@@ -139,7 +139,7 @@ class Checker {
 public:
     void read_opb(std::string_view text) {
         for_each_line(text, [&](std::string_view line) { read_statement(line); });
-        input_count_ = static_cast<std::int64_t>(constraints_.size());
+        for (const auto& [id, stored] : constraints_) inputs_.push_back(stored.constraint);
     }
 
     ProofCheck check(std::string_view text) {
@@ -218,13 +218,12 @@ private:
         const std::string_view step = words.next();
         if (step.empty()) return;
         if (has_ended_) reject("text after the end");
-        ++result_.steps;
         if (!has_header_) {
             if (line != "pseudo-Boolean proof version 2.0") reject("not a proof of version 2.0");
             has_header_ = true;
         } else if (step == "f") {
-            if (to_number(words.next()) != input_count_) {
-                reject("the problem has " + std::to_string(input_count_) + " constraints");
+            if (to_number(words.next()) != static_cast<std::int64_t>(inputs_.size())) {
+                reject("the problem has " + std::to_string(inputs_.size()) + " constraints");
             }
         } else if (step == "soli") {
             read_solution(words);
@@ -263,9 +262,9 @@ private:
             return total;
         };
         // Deleted constraints bind solutions as well; those derived since bind only better ones.
-        for (std::int64_t id = 1; id <= input_count_; ++id) {
-            if (sum(inputs_[id - 1]) < inputs_[id - 1].degree) {
-                reject("the solution violates constraint " + std::to_string(id));
+        for (std::size_t k = 0; k < inputs_.size(); ++k) {
+            if (sum(inputs_[k]) < inputs_[k].degree) {
+                reject("the solution violates constraint " + std::to_string(k + 1));
             }
         }
         const auto objective = static_cast<std::int64_t>(sum(objective_));
@@ -380,7 +379,6 @@ private:
                 return (term.second < 0 ? -term.second : term.second) > slack;
             });
         if (is_eager) eager_.push_back(id);
-        if (result_.steps == 0) inputs_.push_back(constraint);
         constraints_.emplace(id, Stored{std::move(constraint), slack});
     }
 
@@ -435,9 +433,9 @@ private:
     std::vector<std::vector<std::int64_t>> uses_;  ///< per variable: constraints
     std::map<std::int64_t, Stored> constraints_;
     std::vector<std::int64_t> eager_;  ///< constraints that propagate before any decision
-    std::vector<Constraint> inputs_;
+    std::vector<Constraint> inputs_;   ///< of the problem; deleting does not forget them
     Constraint objective_;
-    std::int64_t input_count_ = 0, last_id_ = 0, line_ = 0;
+    std::int64_t last_id_ = 0, line_ = 0;
     std::optional<std::int64_t> best_;
     bool has_header_ = false, has_conclusion_ = false, has_ended_ = false;
     ProofCheck result_;

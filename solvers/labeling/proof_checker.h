@@ -12,7 +12,6 @@ struct ProofCheck {
     std::string message;  ///< "line 12: ..." of what is wrong; empty when valid
     /// Of the minimised OPB objective. Both empty in a valid proof: there is no solution.
     std::optional<std::int64_t> lower, upper;
-    std::int64_t steps = 0;
 };
 
 /// Checks a proof in VeriPB's format 2.0 against the OPB text it is about. Knows the steps `f`,

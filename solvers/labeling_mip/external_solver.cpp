@@ -198,7 +198,7 @@ private:
         if (program_.command.find("{worker}") != std::string::npos) {
             write_text_file(values["worker"], worker_text());
         }
-        values = placeholders(folder);
+        values = placeholders(folder);  // again: writing has taken some of the time
         run.words = command_words(program_.command, values);
         program_name_ = run.words.empty() ? "" : run.words[0];
         run.folder = folder;

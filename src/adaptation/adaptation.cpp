@@ -267,7 +267,7 @@ private:
             const std::vector<int> arcs =
                 find_collapsible_clusters(network(), graph, conflicts.conflicts, scale_);
             if (arcs.empty()) return;
-            for (int a : arcs) record_short(a, iteration.iteration, -1, {});
+            for (int a : arcs) record_short(a, 0, -1, {});
             iteration.collapsed += collapse_short_arcs(network(), arcs, scale_, queries_);
             network().merge_regular_nodes([](int) { return true; });
             resample(iteration.iteration);
@@ -281,7 +281,7 @@ private:
         DroppedPiece piece;
         piece.polyline = arc.points;
         piece.origin_arc = majority_origin(arc, 0, static_cast<int>(arc.points.size()) - 1);
-        piece.iteration = label < 0 ? 0 : iteration;
+        piece.iteration = iteration;
         piece.label = label;
         piece.reason = "short arc";
         piece.blockers = std::move(blockers);

@@ -83,9 +83,8 @@ Command add_verify_command(CLI::App& program) {
                        "Proof of optimality in VeriPB's format, to be checked as well");
     add_common_arguments(*parser, arguments->common);
     parser->footer(
-        "Exit code 5 when the solution is infeasible, its stated value is wrong, or the proof "
-        "does\n"
-        "not show that it is optimal.\n"
+        "Exit code 5 when the solution is infeasible, its stated value is wrong, or the\n"
+        "proof does not show that it is optimal.\n"
         "Example:\n  scalefcn verify problem_1.lab.gz best.sol");
     return {parser, [arguments] { return verify(*arguments); }};
 }
