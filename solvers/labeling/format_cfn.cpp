@@ -3,8 +3,7 @@
 // `mustbe`, which no labeling reaches: twice the sum of all absolute weights and bonuses, plus one.
 // Rules of at most six labels are cost tables, longer ones linear constraints (`knapsack`, a sum >=
 // capacity): toulbar2 1.1.1 answers wrongly on some knapsacks of two labels. A rule without labels
-// that fails forbids both values of the first label. Written only: a table does not say which rule
-// it was.
+// is a table on the first label. The name of a rule's function tells the rule, for our reader.
 #include "labeling/errors.h"
 #include "labeling/formats_detail.h"
 
@@ -45,10 +44,10 @@ public:
 private:
     static std::string quoted(Label i) { return "\"b" + std::to_string(i + 1) + "\""; }
 
-    void begin(char kind, const std::vector<Label>& scope) {
+    void begin(char kind, const std::vector<Label>& scope, const std::string& suffix = {}) {
         out_ += count_ == 0 ? "\n\"" : ",\n\"";
         ++count_;
-        out_ += kind + std::to_string(count_) + "\": {\"scope\": [";
+        out_ += kind + std::to_string(count_) + suffix + "\": {\"scope\": [";
         for (std::size_t k = 0; k < scope.size(); ++k) {
             out_ += (k == 0 ? "" : ", ") + quoted(scope[k]);
         }
@@ -67,8 +66,9 @@ private:
         out_ += ']';
     }
 
-    void table(char kind, const std::vector<Label>& scope, const std::vector<Value>& costs) {
-        begin(kind, scope);
+    void table(char kind, const std::vector<Label>& scope, const std::vector<Value>& costs,
+               const std::string& suffix = {}) {
+        begin(kind, scope, suffix);
         out_ += ", ";
         list("costs", costs);
         out_ += '}';
@@ -77,24 +77,32 @@ private:
     void rule(const Rule& rule) {
         std::vector<Label> scope;
         for (const Term& t : rule.terms) scope.push_back(t.label);
-        if (scope.empty()) {
-            if (!holds(rule, 0)) table('r', {0}, {top_, top_});
-        } else if (scope.size() <= kMostTableLabels) {
-            std::vector<Value> costs;
-            for (std::int64_t row = 0; row < (std::int64_t{1} << scope.size()); ++row) {
-                // The last label of the scope turns fastest.
-                std::int64_t sum = 0;
-                for (std::size_t k = 0; k < scope.size(); ++k) {
-                    const bool is_on = ((row >> (scope.size() - 1 - k)) & 1) != 0;
-                    sum += is_on ? rule.terms[k].coefficient : 0;
-                }
-                costs.push_back(holds(rule, sum) ? 0 : top_);
-            }
-            table('r', scope, costs);
-        } else {
+        std::string told = relation_suffix(rule);
+        if (scope.size() > kMostTableLabels) {
             if (rule.relation != Relation::LessEqual) knapsack(rule, scope, 1);
             if (rule.relation != Relation::GreaterEqual) knapsack(rule, scope, -1);
+            return;
         }
+        told += '_' + std::to_string(rule.right_hand_side);
+        for (const Term& t : rule.terms) told += '_' + std::to_string(t.coefficient);
+        if (scope.empty()) scope.push_back(0);
+        std::vector<Value> costs;
+        for (std::int64_t row = 0; row < (std::int64_t{1} << scope.size()); ++row) {
+            // The last label of the scope turns fastest.
+            std::int64_t sum = 0;
+            for (std::size_t k = 0; k < rule.terms.size(); ++k) {
+                const bool is_on = ((row >> (scope.size() - 1 - k)) & 1) != 0;
+                sum += is_on ? rule.terms[k].coefficient : 0;
+            }
+            costs.push_back(holds(rule, sum) ? 0 : top_);
+        }
+        table('r', scope, costs, told);
+    }
+
+    static std::string relation_suffix(const Rule& rule) {
+        return rule.relation == Relation::LessEqual      ? "_le"
+               : rule.relation == Relation::GreaterEqual ? "_ge"
+                                                         : "_eq";
     }
 
     static bool holds(const Rule& rule, std::int64_t sum) {
@@ -104,7 +112,7 @@ private:
     }
 
     void knapsack(const Rule& rule, const std::vector<Label>& scope, std::int64_t sign) {
-        begin('r', scope);
+        begin('r', scope, relation_suffix(rule));
         out_ += ", \"type\": \"knapsack\", \"params\": {\"capacity\": ";
         append(out_, sign * rule.right_hand_side);
         out_ += ", ";

@@ -41,7 +41,7 @@ LabelingProblem parse_problem(std::string_view text, ProblemFormat format,
         case ProblemFormat::Opb:
             return detail::parse_opb(text, source);
         case ProblemFormat::Cfn:
-            throw InputError(std::string(source) + ": CFN files are written, not read");
+            return detail::parse_cfn(text, source);
         case ProblemFormat::Metis:
             return detail::parse_metis(text, source);
     }

@@ -11,7 +11,7 @@
 namespace labeling {
 
 /// Lab: the native text format. Mps: free MPS. Lp: CPLEX LP. Opb: pseudo-Boolean. Cfn: cost
-/// function network of toulbar2, written only. Metis: graph with vertex weights, for maximum weight
+/// function network of toulbar2. Metis: graph with vertex weights, for maximum weight
 /// independent set; refuses rules and negative weights.
 enum class ProblemFormat { Lab, Mps, Lp, Opb, Cfn, Metis };
 
@@ -21,6 +21,8 @@ ProblemFormat problem_format(const std::filesystem::path& file);
 
 /// Reads a problem; .gz is decompressed. MPS, LP and OPB are read as far as write_problem writes
 /// them: binary columns are labels, continuous columns y with rows y <= b_i, y <= b_j are bonuses.
+/// CFN: variables of two values, costs on at most two of them, tables on up to eight that forbid,
+/// knapsacks and cliques; a constant cost becomes one more label that a rule holds at 1.
 /// Throws InputError "file:line: ..." on anything else.
 LabelingProblem read_problem(const std::filesystem::path& file);
 

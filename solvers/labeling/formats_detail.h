@@ -21,6 +21,7 @@ std::string format_lp(const LinearModel& model);
 LabelingProblem parse_opb(std::string_view text, std::string_view source);
 std::string format_opb(const LinearModel& model);
 
+LabelingProblem parse_cfn(std::string_view text, std::string_view source);
 std::string format_cfn(const LabelingProblem& problem);
 
 LabelingProblem parse_metis(std::string_view text, std::string_view source);

@@ -78,7 +78,8 @@ class Solve(ProgramTest):
     def test_formats_keep_the_optimum(self):
         text, best = random_problem(7)
         self.write("a.lab", text)
-        for target in ("b.mps", "b.lp", "b.lab.gz", "b.mps.gz"):
+        for target in ("b.mps", "b.lp", "b.opb", "b.cfn", "b.lab.gz", "b.mps.gz", "b.lp.gz",
+                       "b.opb.gz", "b.cfn.gz"):
             for rows in ("strengthened", "paper"):
                 with self.subTest(target=target, rows=rows):
                     self.succeed("convert", "a.lab", target, "--rows", rows)

@@ -1,6 +1,6 @@
-// Fuzz target for the readers of labeling problems (.lab, MPS, LP, OPB, METIS) and of solutions:
-// each input goes to all of them. Only InputError may escape. What a reader accepts must come back
-// the same from every format, and the solvers must live through it.
+// Fuzz target for the readers of labeling problems (.lab, MPS, LP, OPB, CFN, METIS) and of
+// solutions: each input goes to all of them. Only InputError may escape. What a reader accepts must
+// come back the same from every format, and the solvers must live through it.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -24,8 +24,10 @@ constexpr labeling::Label kMostSolvedLabels = 200;
 }
 
 void check_round_trips(const LabelingProblem& problem) {
-    for (ProblemFormat format : {ProblemFormat::Lab, ProblemFormat::Mps, ProblemFormat::Lp}) {
-        if (format == ProblemFormat::Lp && problem.label_count() == 0) continue;
+    for (ProblemFormat format :
+         {ProblemFormat::Lab, ProblemFormat::Mps, ProblemFormat::Lp, ProblemFormat::Cfn}) {
+        const bool needs_label = format == ProblemFormat::Lp || format == ProblemFormat::Cfn;
+        if (needs_label && problem.label_count() == 0) continue;
         const std::string text = labeling::format_problem(problem, format, RowStyle::Paper);
         const LabelingProblem again = labeling::parse_problem(text, format, "again");
         if (again.hash() != problem.hash()) fail("comes back as another problem", text);
@@ -68,7 +70,7 @@ void check_solution_reader(const std::string& text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text(reinterpret_cast<const char*>(data), size);
     for (ProblemFormat format : {ProblemFormat::Lab, ProblemFormat::Mps, ProblemFormat::Lp,
-                                 ProblemFormat::Opb, ProblemFormat::Metis}) {
+                                 ProblemFormat::Opb, ProblemFormat::Cfn, ProblemFormat::Metis}) {
         LabelingProblem problem;
         try {
             problem = labeling::parse_problem(text, format, "fuzz");

@@ -1,4 +1,4 @@
-// OPB there and back, foreign OPB, and every mistake with its line; CFN is well-formed.
+// OPB there and back, foreign OPB, and every mistake with its line.
 #include <gtest/gtest.h>
 
 #include "labeling/errors.h"
@@ -12,22 +12,9 @@ using labeling::InputError;
 using labeling::ProblemFormat;
 using labeling::RowStyle;
 
-/// Values of all labelings, infeasible ones as nullopt.
-std::vector<std::optional<Value>> all_values(const LabelingProblem& problem) {
-    std::vector<std::optional<Value>> values;
-    labeling::Solution solution;
-    solution.labels.resize(problem.label_count());
-    for (std::uint32_t set = 0; set < (1U << problem.label_count()); ++set) {
-        for (std::size_t i = 0; i < solution.labels.size(); ++i) solution.labels[i] = set >> i & 1U;
-        const auto check = labeling::check_solution(problem, solution);
-        values.push_back(check.is_feasible ? std::optional(check.value) : std::nullopt);
-    }
-    return values;
-}
-
-std::string parse_error(const std::string& text, ProblemFormat format = ProblemFormat::Opb) {
+std::string parse_error(const std::string& text) {
     try {
-        labeling::parse_problem(text, format, "in");
+        labeling::parse_problem(text, ProblemFormat::Opb, "in");
     } catch (const InputError& error) {
         return error.what();
     }
@@ -106,19 +93,6 @@ TEST(Opb, SurvivesRandomText) {
         }
     }
     EXPECT_GT(accepted, 0);
-}
-
-TEST(Cfn, IsWrittenNotRead) {
-    EXPECT_EQ(parse_error("{}", ProblemFormat::Cfn), "in: CFN files are written, not read");
-    labeling::ProblemBuilder builder;
-    builder.add_label(3);
-    builder.add_label(0);
-    builder.add_bonus(0, 1, 4);
-    EXPECT_EQ(format_problem(builder.build(), ProblemFormat::Cfn),
-              "{\n\"problem\": {\"name\": \"labeling\", \"mustbe\": \"<15\"},\n\"variables\": {\n"
-              "\"b1\": 2,\n\"b2\": 2\n},\n\"functions\": {\n"
-              "\"l1\": {\"scope\": [\"b1\"], \"costs\": [0, -3]},\n"
-              "\"q2\": {\"scope\": [\"b1\", \"b2\"], \"costs\": [0, 0, 0, -4]}\n}\n}\n");
 }
 
 }  // namespace

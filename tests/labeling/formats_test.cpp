@@ -142,12 +142,23 @@ TEST(Files, AreChosenByNameCompressedAndWrittenAtomically) {
     std::mt19937_64 engine(3);
     const LabelingProblem p = curve_bundle(engine, {});
     Folder folder;
-    const char* names[] = {"p.lab", "p.lab.gz", "p.mps", "p.mps.gz", "p.lp"};
+    const char* names[] = {"p.lab", "p.lab.gz", "p.mps", "p.mps.gz",
+                           "p.lp",  "p.lp.gz",  "p.cfn", "p.cfn.gz"};
     for (const char* name : names) {
         write_problem(p, folder / name, RowStyle::Paper);
         EXPECT_EQ(labeling::read_problem(folder / name).hash(), p.hash()) << name;
     }
-    EXPECT_EQ(folder.file_count(), std::size(names)) << "a temporary file was left behind";
+    for (const char* name : {"p.opb", "p.opb.gz"}) {
+        write_problem(p, folder / name, RowStyle::Paper);
+        EXPECT_EQ(labeling::read_problem(folder / name).rule_count(), p.rule_count()) << name;
+    }
+    const LabelingProblem graph = labeling::parse_problem(
+        "p labeling 2 1 0 0\nl 1 4\nl 2 5\nx 1 2\n", ProblemFormat::Lab, "in");
+    for (const char* name : {"p.graph", "p.graph.gz"}) {
+        write_problem(graph, folder / name);
+        EXPECT_EQ(labeling::read_problem(folder / name).hash(), graph.hash()) << name;
+    }
+    EXPECT_EQ(folder.file_count(), std::size(names) + 4) << "a temporary file was left behind";
     EXPECT_LT(std::filesystem::file_size(folder / "p.lab.gz"),
               std::filesystem::file_size(folder / "p.lab"));
     EXPECT_THROW(write_problem(p, folder / "p.txt"), InputError);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "labeling/formats.h"
+#include "labeling/solution.h"
 
 namespace labeling_test {
 
@@ -195,6 +196,18 @@ std::optional<Value> enumerate_optimum(const LabelingProblem& problem) {
         if (!best || value > *best) best = value;
     }
     return best;
+}
+
+std::vector<std::optional<Value>> all_values(const LabelingProblem& problem) {
+    std::vector<std::optional<Value>> values;
+    labeling::Solution solution;
+    solution.labels.resize(problem.label_count());
+    for (std::uint32_t set = 0; set < (1U << problem.label_count()); ++set) {
+        for (std::size_t i = 0; i < solution.labels.size(); ++i) solution.labels[i] = set >> i & 1U;
+        const auto check = labeling::check_solution(problem, solution);
+        values.push_back(check.is_feasible ? std::optional(check.value) : std::nullopt);
+    }
+    return values;
 }
 
 namespace {

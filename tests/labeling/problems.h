@@ -39,6 +39,9 @@ LabelingProblem curve_bundle(std::mt19937_64& engine, const BundleOptions& optio
 /// Best value over all 2^n labelings by plain evaluation; nullopt when none is feasible.
 std::optional<Value> enumerate_optimum(const LabelingProblem& problem);
 
+/// Values of all labelings, infeasible ones as nullopt; label i is bit i of the index.
+std::vector<std::optional<Value>> all_values(const LabelingProblem& problem);
+
 /// The same problem with label i renamed to order[i].
 LabelingProblem permuted(const LabelingProblem& problem, const std::vector<labeling::Label>& order);
 
