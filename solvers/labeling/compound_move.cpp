@@ -10,21 +10,16 @@
 #include <limits>
 
 namespace labeling {
+namespace {
 
-CompoundMoves::CompoundMoves(const LabelingProblem& problem, const RowSystem& rows,
-                             SearchState& state, Random& random)
-    : problem_(problem),
-      rows_(rows),
-      state_(state),
-      random_(random),
-      stamps_(problem.label_count(), 0) {}
+constexpr Value kMost = std::numeric_limits<Value>::max();
+/// One rule in so many is mended at random.
+constexpr std::uint32_t kRandomMendings = 16;
 
-void CompoundMoves::begin() {
-    if (++stamp_ == 0) {
-        std::fill(stamps_.begin(), stamps_.end(), 0);
-        stamp_ = 1;
-    }
-}
+}  // namespace
+
+CompoundMoves::CompoundMoves(const SearchModel& model, SearchState& state, Random& random)
+    : problem_(model.problem()), rows_(model.rows()), state_(state), random_(random) {}
 
 bool CompoundMoves::end(bool is_good, Value threshold, Value before) {
     if (is_good && state_.value() - before >= threshold) return true;
@@ -32,7 +27,7 @@ bool CompoundMoves::end(bool is_good, Value threshold, Value before) {
     return false;
 }
 
-bool CompoundMoves::eviction_loss(Label i, Value& loss) {
+bool CompoundMoves::eviction_loss(Label i, Value most, Value& loss) {
     loss = 0;
     std::int32_t left = state_.blocker_count(i);
     if (left == 0) return true;
@@ -40,19 +35,20 @@ bool CompoundMoves::eviction_loss(Label i, Value& loss) {
         if (!state_.is_on(j)) continue;
         if (is_touched(j)) return false;
         loss += state_.gain(j);
+        if (loss > most) return false;
         if (--left == 0) break;
     }
     return true;
 }
 
 bool CompoundMoves::switch_on(Label i) {
-    touch(i);
+    state_.mark(i);
     std::int32_t left = state_.blocker_count(i);
     if (left > 0) {
         for (Label j : problem_.conflicts_of(i)) {
             if (!state_.is_on(j)) continue;
             if (is_touched(j)) return false;
-            touch(j);
+            state_.mark(j);
             state_.flip(j);
             if (--left == 0) break;
         }
@@ -62,34 +58,37 @@ bool CompoundMoves::switch_on(Label i) {
 }
 
 bool CompoundMoves::flip(Label i, Value threshold) {
-    begin();
-    if (is_touched(i)) return false;
     const Value before = state_.value();
     if (state_.is_on(i)) {
         if (-state_.gain(i) < threshold) return false;
-        touch(i);
+        state_.clear_marks();
+        if (is_touched(i)) return false;
+        state_.mark(i);
         state_.flip(i);
     } else {
+        state_.clear_marks();
+        if (is_touched(i)) return false;
         Value loss = 0;
         // Bonuses among the evicted are counted twice here, so the estimate is pessimistic.
-        if (!eviction_loss(i, loss) || state_.gain(i) - loss < threshold) return false;
+        const Value most = state_.gain(i) - threshold;
+        if (!eviction_loss(i, most, loss) || loss > most) return false;
         if (!switch_on(i)) return end(false, threshold, before);
     }
     return end(mend(before + threshold), threshold, before);
 }
 
 bool CompoundMoves::insert_run(Label i, int length, Value threshold) {
-    begin();
+    state_.clear_marks();
     if (is_touched(i)) return false;
     const Value before = state_.value();
     for (Label at = i;;) {
         if (!state_.is_on(at)) {
             Value loss = 0;
-            if (!eviction_loss(at, loss)) break;
+            if (!eviction_loss(at, kMost, loss)) break;
             if (!switch_on(at)) return end(false, threshold, before);
             --length;
         } else {
-            touch(at);
+            state_.mark(at);
         }
         if (length <= 0) break;
         const auto partners = problem_.bonuses_of(at);
@@ -108,12 +107,12 @@ bool CompoundMoves::insert_run(Label i, int length, Value threshold) {
 }
 
 bool CompoundMoves::mend(Value floor) {
-    auto& suspects = state_.suspects();
-    while (!suspects.empty()) {
-        const std::int32_t row = suspects.back();
-        suspects.pop_back();
-        while (state_.excess(row) > 0) {
-            if (!mend_row(row)) return false;
+    auto& broken = state_.broken_rules();
+    while (!broken.empty()) {
+        const BrokenRule rule = broken.back();
+        broken.pop_back();
+        while (state_.is_broken(rule)) {
+            if (!(rule.row >= 0 ? mend_row(rule.row) : mend_triple(rule))) return false;
             // Mending mostly costs; what it may still win is not worth waiting for.
             if (state_.value() < floor) return false;
         }
@@ -121,18 +120,33 @@ bool CompoundMoves::mend(Value floor) {
     return true;
 }
 
+bool CompoundMoves::mend_triple(const BrokenRule& rule) {
+    Label best = -1;
+    const bool is_random = random_.below(kRandomMendings) == 0;
+    for (Label j : {rule.label, rule.others.first, rule.others.second}) {
+        if (is_touched(j)) continue;
+        const bool is_better =
+            best < 0 || (is_random ? random_.below(2) == 0 : state_.gain(j) < state_.gain(best));
+        if (is_better) best = j;
+    }
+    if (best < 0) return false;
+    state_.mark(best);
+    state_.flip(best);
+    return true;
+}
+
 bool CompoundMoves::mend_row(std::int32_t row) {
     Label best = -1;
-    Value best_cost = std::numeric_limits<Value>::max();
+    Value best_cost = kMost;
     std::uint32_t ties = 0;
-    const bool is_random = random_.below(16) == 0;
+    const bool is_random = random_.below(kRandomMendings) == 0;
     for (const Term& t : rows_.terms(row)) {
         const Label j = t.label;
         if (state_.is_on(j) != (t.coefficient > 0) || is_touched(j)) continue;
         Value cost = state_.gain(j);
         if (t.coefficient < 0) {
             Value loss = 0;
-            if (!eviction_loss(j, loss)) continue;
+            if (!eviction_loss(j, kMost, loss)) continue;
             cost = loss - cost;
         }
         if (is_random) cost = 0;
@@ -146,7 +160,7 @@ bool CompoundMoves::mend_row(std::int32_t row) {
     }
     if (best < 0) return false;
     if (!state_.is_on(best)) return switch_on(best);
-    touch(best);
+    state_.mark(best);
     state_.flip(best);
     return true;
 }

@@ -13,8 +13,7 @@ namespace labeling {
 /// move ends after at most n flips.
 class CompoundMoves {
 public:
-    CompoundMoves(const LabelingProblem& problem, const RowSystem& rows, SearchState& state,
-                  Random& random);
+    CompoundMoves(const SearchModel& model, SearchState& state, Random& random);
 
     /// Labels a move may touch; empty = all. Ownership stays with the caller.
     void restrict_to(const std::vector<std::uint8_t>* allowed) { allowed_ = allowed; }
@@ -29,22 +28,20 @@ private:
     bool switch_on(Label i);
     bool mend(Value floor);
     bool mend_row(std::int32_t row);
+    bool mend_triple(const BrokenRule& rule);
     bool is_touched(Label i) const {
-        return stamps_[i] == stamp_ || (allowed_ != nullptr && (*allowed_)[i] == 0);
+        return state_.is_marked(i) || (allowed_ != nullptr && (*allowed_)[i] == 0);
     }
-    void touch(Label i) { stamps_[i] = stamp_; }
-    void begin();
     bool end(bool is_good, Value threshold, Value before);
-    /// Loss of switching i on by evictions; nullopt-like: false when a touched label is in the way.
-    bool eviction_loss(Label i, Value& loss);
+    /// Loss of switching i on by evictions, given up beyond `most`. False: given up, or a touched
+    /// label is in the way.
+    bool eviction_loss(Label i, Value most, Value& loss);
 
     const LabelingProblem& problem_;
     const RowSystem& rows_;
     SearchState& state_;
     Random& random_;
     const std::vector<std::uint8_t>* allowed_ = nullptr;
-    std::vector<std::uint32_t> stamps_;
-    std::uint32_t stamp_ = 0;
 };
 
 }  // namespace labeling

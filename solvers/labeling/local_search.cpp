@@ -21,6 +21,7 @@
 #include "labeling/difference_parts.h"
 #include "labeling/greedy.h"
 #include "labeling/random.h"
+#include "labeling/search_model.h"
 #include "labeling/search_state.h"
 
 namespace labeling {
@@ -52,8 +53,9 @@ public:
           control_(control),
           report_(report),
           random_(options.seed),
-          state_(problem, rows, start.labels),
-          moves_(problem, rows, state_, random_),
+          model_(problem, rows),
+          state_(model_, start.labels),
+          moves_(model_, state_, random_),
           parts_(problem, rows),
           in_window_(problem.label_count(), 0),
           best_(std::move(start)),
@@ -255,6 +257,7 @@ private:
     RunControl& control_;
     const std::function<void(Value)>& report_;
     Random random_;
+    SearchModel model_;
     SearchState state_;
     CompoundMoves moves_;
     DifferenceParts parts_;

@@ -55,19 +55,6 @@ const std::string& LabelingProblem::name(Label i) const {
     return names_.empty() ? kNoName : names_[i];
 }
 
-std::span<const Label> LabelingProblem::conflicts_of(Label i) const {
-    return {conflict_adjacency_.data() + conflict_begin_[i],
-            conflict_begin_[i + 1] - conflict_begin_[i]};
-}
-
-std::span<const LabelingProblem::BonusPartner> LabelingProblem::bonuses_of(Label i) const {
-    return {bonus_adjacency_.data() + bonus_begin_[i], bonus_begin_[i + 1] - bonus_begin_[i]};
-}
-
-std::span<const LabelingProblem::RuleUse> LabelingProblem::rules_of(Label i) const {
-    return {rule_adjacency_.data() + rule_begin_[i], rule_begin_[i + 1] - rule_begin_[i]};
-}
-
 bool LabelingProblem::in_conflict(Label i, Label j) const {
     auto a = conflicts_of(i);
     auto b = conflicts_of(j);

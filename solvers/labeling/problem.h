@@ -69,19 +69,26 @@ public:
     std::span<const Rule> rules() const { return rules_; }
 
     /// Labels in conflict with i, ascending.
-    std::span<const Label> conflicts_of(Label i) const;
+    std::span<const Label> conflicts_of(Label i) const {
+        return {conflict_adjacency_.data() + conflict_begin_[i],
+                conflict_begin_[i + 1] - conflict_begin_[i]};
+    }
     struct BonusPartner {
         Label label = 0;
         Value value = 0;
     };
     /// Bonus partners of i, ascending by label.
-    std::span<const BonusPartner> bonuses_of(Label i) const;
+    std::span<const BonusPartner> bonuses_of(Label i) const {
+        return {bonus_adjacency_.data() + bonus_begin_[i], bonus_begin_[i + 1] - bonus_begin_[i]};
+    }
     struct RuleUse {
         std::int32_t rule = 0;
         std::int32_t coefficient = 0;
     };
     /// Rules that contain i, ascending by rule index.
-    std::span<const RuleUse> rules_of(Label i) const;
+    std::span<const RuleUse> rules_of(Label i) const {
+        return {rule_adjacency_.data() + rule_begin_[i], rule_begin_[i + 1] - rule_begin_[i]};
+    }
 
     bool in_conflict(Label i, Label j) const;  ///< O(log degree)
 

@@ -2,64 +2,87 @@
 
 namespace labeling {
 
-SearchState::SearchState(const LabelingProblem& problem, const RowSystem& rows,
-                         std::span<const std::uint8_t> start)
-    : problem_(problem),
-      rows_(rows),
-      labels_(problem.label_count(), 0),
-      gains_(problem.weights().begin(), problem.weights().end()),
-      blocker_counts_(problem.label_count(), 0) {
+SearchState::SearchState(const SearchModel& model, std::span<const std::uint8_t> start)
+    : model_(model), labels_(model.label_count(), 0), nodes_(model.label_count()) {
+    const RowSystem& rows = model.rows();
+    excesses_.reserve(rows.row_count());
     for (std::int32_t row = 0; row < rows.row_count(); ++row) {
         excesses_.push_back(-rows.right_hand_side(row));
     }
-    for (Label i = 0; i < problem.label_count(); ++i) {
-        if (start[i] != 0) apply(i);
+    for (Label i = 0; i < model.label_count(); ++i) nodes_[i].gain = model.problem().weight(i);
+    for (Label i = 0; i < model.label_count(); ++i) {
+        if (start[i] != 0) switch_on<false>(i);
     }
-    suspects_.clear();
 }
 
-void SearchState::apply(Label i) {
-    const auto neighbours = problem_.conflicts_of(i);
-    const auto partners = problem_.bonuses_of(i);
-    const auto uses = rows_.uses(i);
-    work_ += static_cast<std::int64_t>(neighbours.size() + partners.size() + uses.size()) + 1;
-    if (labels_[i] != 0) {
-        labels_[i] = 0;
-        value_ -= gains_[i];
-        for (Label j : neighbours) --blocker_counts_[j];
-        for (const auto& b : partners) gains_[b.label] -= b.value;
-        for (const auto& use : uses) {
-            excesses_[use.row] -= use.coefficient;
-            if (use.coefficient < 0 && excesses_[use.row] > 0) suspects_.push_back(use.row);
-        }
-    } else {
-        labels_[i] = 1;
-        value_ += gains_[i];
-        for (Label j : neighbours) ++blocker_counts_[j];
-        for (const auto& b : partners) gains_[b.label] += b.value;
-        for (const auto& use : uses) {
-            excesses_[use.row] += use.coefficient;
-            if (use.coefficient > 0 && excesses_[use.row] > 0) suspects_.push_back(use.row);
-        }
+template <bool kNotesBroken>
+void SearchState::switch_on(Label i) {
+    const auto neighbours = model_.problem().conflicts_of(i);
+    const auto partners = model_.problem().bonuses_of(i);
+    const auto uses = model_.uses(i);
+    work_ += static_cast<std::int64_t>(neighbours.size() + 2 * partners.size() + 2 * uses.size());
+    labels_[i] = 1;
+    value_ += nodes_[i].gain;
+    for (Label j : neighbours) ++nodes_[j].blocker_count;
+    for (const auto& b : partners) nodes_[b.label].gain += b.value;
+    for (const auto& use : uses) {
+        excesses_[use.row] += use.coefficient;
+        if (kNotesBroken && use.coefficient > 0 && excesses_[use.row] > 0)
+            broken_rules_.push_back({use.row, i, {}});
     }
+    if (!kNotesBroken) return;
+    const auto triples = model_.triples(i);
+    work_ += static_cast<std::int64_t>(triples.size());
+    for (const auto& pair : triples) {
+        if ((labels_[pair.first] & labels_[pair.second]) != 0)
+            broken_rules_.push_back({-1, i, pair});
+    }
+}
+
+template <bool kNotesBroken>
+void SearchState::switch_off(Label i) {
+    const auto neighbours = model_.problem().conflicts_of(i);
+    const auto partners = model_.problem().bonuses_of(i);
+    const auto uses = model_.uses(i);
+    work_ += static_cast<std::int64_t>(neighbours.size() + 2 * partners.size() + 2 * uses.size());
+    labels_[i] = 0;
+    value_ -= nodes_[i].gain;
+    for (Label j : neighbours) --nodes_[j].blocker_count;
+    for (const auto& b : partners) nodes_[b.label].gain -= b.value;
+    for (const auto& use : uses) {
+        excesses_[use.row] -= use.coefficient;
+        if (kNotesBroken && use.coefficient < 0 && excesses_[use.row] > 0)
+            broken_rules_.push_back({use.row, i, {}});
+    }
+}
+
+template <bool kNotesBroken>
+void SearchState::apply(Label i) {
+    is_on(i) ? switch_off<kNotesBroken>(i) : switch_on<kNotesBroken>(i);
 }
 
 void SearchState::flip(Label i) {
-    apply(i);
+    apply<true>(i);
     log_.push_back(i);
 }
 
 void SearchState::commit() {
     log_.clear();
-    suspects_.clear();
+    broken_rules_.clear();
 }
 
 void SearchState::roll_back() {
     while (!log_.empty()) {
-        apply(log_.back());
+        apply<false>(log_.back());
         log_.pop_back();
     }
-    suspects_.clear();
+    broken_rules_.clear();
+}
+
+void SearchState::clear_marks() {
+    if (++mark_ != 0) return;
+    for (Node& node : nodes_) node.mark = 0;
+    mark_ = 1;
 }
 
 }  // namespace labeling

@@ -5,25 +5,36 @@
 #include <vector>
 
 #include "labeling/problem.h"
-#include "labeling/rows.h"
+#include "labeling/search_model.h"
 
 namespace labeling {
 
+/// A rule that was broken: a row, or a triple of labels that are all on.
+struct BrokenRule {
+    std::int32_t row = -1;  ///< -1: the triple
+    Label label = 0;        ///< of the triple
+    SearchModel::Pair others;
+};
+
 /// A 0/1 labeling with incremental gains, conflict counts and row activities, and a log that takes
-/// flips back. Conflicts and rows may be violated between the flips of one transaction.
+/// flips back. Conflicts and rules may be violated between the flips of one transaction. Labels can
+/// be marked as touched until the next transaction.
 class SearchState {
 public:
-    SearchState(const LabelingProblem& problem, const RowSystem& rows,
-                std::span<const std::uint8_t> start);
+    SearchState(const SearchModel& model, std::span<const std::uint8_t> start);
 
     bool is_on(Label i) const { return labels_[i] != 0; }
     std::span<const std::uint8_t> labels() const { return labels_; }
     Value value() const { return value_; }
     /// Weight of i plus its bonuses to labels that are on (i itself may be on or off).
-    Value gain(Label i) const { return gains_[i]; }
+    Value gain(Label i) const { return nodes_[i].gain; }
     /// How many conflict partners of i are on.
-    std::int32_t blocker_count(Label i) const { return blocker_counts_[i]; }
+    std::int32_t blocker_count(Label i) const { return nodes_[i].blocker_count; }
     std::int64_t excess(std::int32_t row) const { return excesses_[row]; }
+    bool is_broken(const BrokenRule& rule) const {
+        if (rule.row >= 0) return excesses_[rule.row] > 0;
+        return is_on(rule.label) && is_on(rule.others.first) && is_on(rule.others.second);
+    }
 
     void flip(Label i);
 
@@ -31,27 +42,42 @@ public:
     std::span<const Label> log() const { return log_; }
     void commit();
     void roll_back();
+    /// Rules that a flip since the last commit() broke; entries may have been mended since. The
+    /// caller pops.
+    std::vector<BrokenRule>& broken_rules() { return broken_rules_; }
 
-    /// Rows that a flip since the last commit() pushed over their right-hand side; entries may have
-    /// been mended since. The caller pops.
-    std::vector<std::int32_t>& suspects() { return suspects_; }
+    void clear_marks();
+    void mark(Label i) { nodes_[i].mark = mark_; }
+    bool is_marked(Label i) const { return nodes_[i].mark == mark_; }
 
     /// Adjacency entries touched so far.
     std::int64_t work() const { return work_; }
 
 private:
-    void apply(Label i);
+    /// What moves read together lies together.
+    struct Node {
+        Value gain = 0;
+        std::int32_t blocker_count = 0;
+        std::uint32_t mark = 0;
+    };
 
-    const LabelingProblem& problem_;
-    const RowSystem& rows_;
+    /// Without `kNotesBroken` for flips that lead back to what is feasible.
+    template <bool kNotesBroken>
+    void apply(Label i);
+    template <bool kNotesBroken>
+    void switch_on(Label i);
+    template <bool kNotesBroken>
+    void switch_off(Label i);
+
+    const SearchModel& model_;
     std::vector<std::uint8_t> labels_;
-    std::vector<Value> gains_;
-    std::vector<std::int32_t> blocker_counts_;
+    std::vector<Node> nodes_;
     std::vector<std::int64_t> excesses_;  ///< activity - right-hand side; violated when > 0
     std::vector<Label> log_;
-    std::vector<std::int32_t> suspects_;
+    std::vector<BrokenRule> broken_rules_;
     Value value_ = 0;
     std::int64_t work_ = 0;
+    std::uint32_t mark_ = 1;
 };
 
 }  // namespace labeling

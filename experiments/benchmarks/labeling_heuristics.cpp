@@ -1,0 +1,286 @@
+// labeling_heuristics FILE|FOLDER... [--solvers A,B:KEY=VALUE:KEY=VALUE] [--seeds N]
+//                     [--at TICKS,TICKS] [--best FILE] [--permute] [--threads N]
+// Runs heuristics with seeds 1 to N, each to the largest amount of work in --at, and prints a
+// Markdown table: mean and largest distance in percent to the best known value after each amount
+// of work, in how many runs it was reached, and processor seconds a run. A solver may be followed
+// by extra options of its own. --best names a file of lines `problem value`; better values met here
+// count too. --permute renames the labels by the seed.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <random>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "labeling/errors.h"
+#include "labeling/formats.h"
+#include "labeling/solver.h"
+#ifdef LABELING_WITH_MIP
+#include "labeling_mip/mip_solvers.h"
+#endif
+
+namespace {
+
+namespace fs = std::filesystem;
+using labeling::Label;
+using labeling::LabelingProblem;
+using labeling::Value;
+
+struct Variant {
+    std::string text;
+    std::string solver;
+    std::map<std::string, std::string> extra;
+};
+
+struct Arguments {
+    std::vector<fs::path> files;
+    std::vector<Variant> variants;
+    std::vector<std::int64_t> checkpoints{10'000'000, 100'000'000};
+    std::map<std::string, double> best;
+    int seeds = 5;
+    int threads = 1;
+    bool is_permuted = false;
+};
+
+/// What one solver reached on one problem.
+struct Row {
+    std::vector<std::vector<double>> values;  ///< by checkpoint, then seed
+    double seconds = 0;
+};
+
+/// Sums over the rows of one solver.
+struct Total {
+    std::vector<double> gap, worst;
+    std::vector<int> reached;
+    int runs = 0;
+    double seconds = 0;
+};
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream in(text);
+    for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
+    return parts;
+}
+
+Variant parse_variant(const std::string& text) {
+    Variant variant{text, "", {}};
+    for (const std::string& part : split(text, ':')) {
+        const std::size_t at = part.find('=');
+        if (variant.solver.empty()) {
+            variant.solver = part;
+        } else if (at == std::string::npos) {
+            throw labeling::InputError("'" + part + "' is not KEY=VALUE");
+        } else {
+            variant.extra[part.substr(0, at)] = part.substr(at + 1);
+        }
+    }
+    return variant;
+}
+
+void add_files(const fs::path& path, std::vector<fs::path>& files) {
+    if (!fs::is_directory(path)) {
+        files.push_back(path);
+        return;
+    }
+    const std::size_t first = files.size();
+    for (const auto& entry : fs::directory_iterator(path)) {
+        if (entry.path().string().find(".lab") != std::string::npos) files.push_back(entry.path());
+    }
+    std::sort(files.begin() + static_cast<std::ptrdiff_t>(first), files.end());
+}
+
+Arguments parse(int argc, char** argv) {
+    Arguments arguments;
+    std::string solvers = "local-search";
+    for (int k = 1; k < argc; ++k) {
+        const std::string_view word = argv[k];
+        auto next = [&]() -> std::string {
+            if (k + 1 >= argc) throw labeling::InputError(std::string(word) + " needs a value");
+            return argv[++k];
+        };
+        if (word == "--solvers") {
+            solvers = next();
+        } else if (word == "--seeds") {
+            arguments.seeds = std::stoi(next());
+        } else if (word == "--threads") {
+            arguments.threads = std::stoi(next());
+        } else if (word == "--permute") {
+            arguments.is_permuted = true;
+        } else if (word == "--at") {
+            arguments.checkpoints.clear();
+            for (const std::string& ticks : split(next(), ',')) {
+                arguments.checkpoints.push_back(static_cast<std::int64_t>(std::stod(ticks)));
+            }
+        } else if (word == "--best") {
+            std::ifstream in(next());
+            std::string name;
+            for (double value = 0; in >> name >> value;) arguments.best[name] = value;
+        } else {
+            add_files(fs::path(word), arguments.files);
+        }
+    }
+    for (const std::string& text : split(solvers, ',')) {
+        arguments.variants.push_back(parse_variant(text));
+    }
+    if (arguments.files.empty()) throw labeling::InputError("no problem given");
+    return arguments;
+}
+
+LabelingProblem renamed(const LabelingProblem& problem, std::uint64_t seed) {
+    std::vector<Label> order(problem.label_count());
+    std::iota(order.begin(), order.end(), 0);
+    std::mt19937_64 engine(seed);
+    for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[engine() % k]);
+    labeling::ProblemBuilder builder;
+    std::vector<Value> weights(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        weights[order[i]] = problem.weight(static_cast<Label>(i));
+    }
+    for (Value w : weights) builder.add_label(w);
+    for (const auto& c : problem.conflicts()) builder.add_conflict(order[c.first], order[c.second]);
+    for (const auto& b : problem.bonuses()) {
+        builder.add_bonus(order[b.first], order[b.second], b.value);
+    }
+    for (labeling::Rule rule : problem.rules()) {
+        for (labeling::Term& t : rule.terms) t.label = order[t.label];
+        builder.add_rule(std::move(rule));
+    }
+    builder.set_units_per_one(problem.units_per_one());
+    return builder.build();
+}
+
+double processor_seconds() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+/// Best value of the trace by then, in units of the real objective.
+double value_at(const labeling::SolveResult& result, std::int64_t work, double units) {
+    Value value = 0;
+    for (const auto& point : result.trace) {
+        if (point.work <= work && point.value) value = *point.value;
+    }
+    return static_cast<double>(value) / units;
+}
+
+Row run_variant(const Arguments& arguments, const Variant& variant, const LabelingProblem& given) {
+#ifdef LABELING_WITH_MIP
+    const labeling::SolverRegistry solvers = labeling::all_solvers();
+#else
+    const labeling::SolverRegistry solvers = labeling::builtin_solvers();
+#endif
+    Row row;
+    row.values.resize(arguments.checkpoints.size());
+    for (int seed = 1; seed <= arguments.seeds; ++seed) {
+        labeling::SolveOptions options;
+        options.seed = static_cast<std::uint64_t>(seed);
+        options.threads = arguments.threads;
+        options.extra = variant.extra;
+        options.work_limit = arguments.checkpoints.back();
+        const LabelingProblem problem =
+            arguments.is_permuted ? renamed(given, options.seed) : LabelingProblem();
+        const double before = processor_seconds();
+        const auto result =
+            solvers.find(variant.solver)->solve(arguments.is_permuted ? problem : given, options);
+        row.seconds += (processor_seconds() - before) / arguments.seeds;
+        for (std::size_t c = 0; c < arguments.checkpoints.size(); ++c) {
+            row.values[c].push_back(
+                value_at(result, arguments.checkpoints[c], given.units_per_one()));
+        }
+    }
+    return row;
+}
+
+void print_row(const std::string& name, const Variant& variant, const Row& row, double best,
+               Total& total) {
+    std::printf("| %s | %s |", name.c_str(), variant.text.c_str());
+    total.gap.resize(row.values.size());
+    total.worst.resize(row.values.size());
+    total.reached.resize(row.values.size());
+    for (std::size_t c = 0; c < row.values.size(); ++c) {
+        double sum = 0, worst = 0;
+        int reached = 0;
+        for (double value : row.values[c]) {
+            const double gap = std::max(0.0, 100 * (best - value) / best);
+            sum += gap / static_cast<double>(row.values[c].size());
+            worst = std::max(worst, gap);
+            if (best - value < 1e-8 * best) ++reached;
+        }
+        std::printf(" %.4f | %.4f | %d |", sum, worst, reached);
+        total.gap[c] += sum;
+        total.worst[c] = std::max(total.worst[c], worst);
+        total.reached[c] += reached;
+    }
+    std::printf(" %.2f |\n", row.seconds);
+    total.seconds += row.seconds;
+    total.runs += static_cast<int>(row.values.front().size());
+}
+
+void print_totals(const Arguments& arguments, const std::vector<Total>& totals) {
+    const auto problems = static_cast<double>(arguments.files.size());
+    for (std::size_t v = 0; v < totals.size(); ++v) {
+        const Total& t = totals[v];
+        std::printf("| all | %s |", arguments.variants[v].text.c_str());
+        for (std::size_t c = 0; c < t.gap.size(); ++c) {
+            std::printf(" %.4f | %.4f | %d of %d |", t.gap[c] / problems, t.worst[c], t.reached[c],
+                        t.runs);
+        }
+        std::printf(" %.2f |\n", t.seconds / problems);
+    }
+}
+
+void run(const Arguments& arguments) {
+    std::printf("| problem | solver |");
+    for (std::int64_t ticks : arguments.checkpoints) {
+        std::printf(" %.3g ticks: mean %% | worst %% | reached |", static_cast<double>(ticks));
+    }
+    std::printf(" CPU s |\n|---|---|");
+    for (std::size_t c = 0; c < arguments.checkpoints.size(); ++c) std::printf("---|---|---|");
+    std::printf("---|\n");
+    std::vector<Total> totals(arguments.variants.size());
+    for (const fs::path& file : arguments.files) {
+        std::string name = file.filename().string();
+        name = name.substr(0, name.find(".lab"));
+        const LabelingProblem problem = labeling::read_problem(file);
+        const auto known = arguments.best.find(name);
+        double best = known == arguments.best.end() ? 0 : known->second;
+        std::vector<Row> rows;
+        for (const Variant& variant : arguments.variants) {
+            rows.push_back(run_variant(arguments, variant, problem));
+            for (double value : rows.back().values.back()) {
+                if (value <= best * (1 + 1e-8)) continue;
+                best = value;
+            }
+        }
+        if (known != arguments.best.end() && best > known->second * (1 + 1e-8)) {
+            std::fprintf(stderr, "new best: %s %.4f\n", name.c_str(), best);
+        }
+        for (std::size_t v = 0; v < rows.size(); ++v) {
+            print_row(name, arguments.variants[v], rows[v], best, totals[v]);
+        }
+        std::fflush(stdout);
+    }
+    print_totals(arguments, totals);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        run(parse(argc, argv));
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "labeling_heuristics: %s\n", error.what());
+        return 2;
+    }
+}
