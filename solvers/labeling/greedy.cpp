@@ -1,17 +1,21 @@
-// Greedy construction by gain per blocked gain: the next label is the one with the largest
-//   (w_i + sum of bonuses to chosen partners + half the bonuses to undecided partners)
-//   / (1 + potential of its undecided conflict partners),
-// kept in a lazy heap; each decision is propagated through conflicts and rules, so rules forbid or
-// force labels as soon as they can (a third segment at a node pulls its keep-label in, which blocks
-// the neighbouring keep-labels). The weight-per-blocked-weight rule is Sakai, Togasaki & Yamazaki's
-// GWMIN2 (2003); bonuses as marginal gain and the rules are ours. Propagation can run into a dead
-// end when rules are arbitrary; then a depth-first search with few backtracks repeats the job.
+// Greedy construction: the label that the rule likes best is chosen, and each decision is
+// propagated through conflicts and rules, so rules forbid or force labels as soon as they can (a
+// third segment at a node pulls its keep-label in, which blocks the neighbouring keep-labels).
+// Scores are in greedy_state.cpp. By curves, the chosen label pulls in the run along its strongest
+// bonuses for as long as the next label scores at least half of what the first one did. Which rule
+// is best depends on the problem, and all are cheap, so the default makes three labelings and keeps
+// the best. Propagation can run into a dead end when rules are arbitrary; then another rule is
+// tried, and at last a depth-first search with few backtracks.
 #include "labeling/greedy.h"
 
 #include <algorithm>
-#include <queue>
+#include <array>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "labeling/errors.h"
+#include "labeling/greedy_state.h"
 #include "labeling/propagation.h"
 
 namespace labeling {
@@ -20,6 +24,16 @@ namespace {
 constexpr std::int64_t kEntriesPerTick = 16;
 /// Up to so many labels the construction takes milliseconds and is finished in any case.
 constexpr Label kUninterrupted = 20000;
+constexpr std::int64_t kEntriesPerCheck = 100'000;
+constexpr double kRunShare = 0.5;
+
+constexpr std::array<std::pair<std::string_view, GreedyRule>, 5> kRules{{
+    {"best", GreedyRule::Best},
+    {"weight", GreedyRule::Weight},
+    {"blocked", GreedyRule::Blocked},
+    {"gain", GreedyRule::Gain},
+    {"curve", GreedyRule::Curve},
+}};
 
 class GreedyBuilder {
 public:
@@ -28,31 +42,21 @@ public:
         : problem_(problem), control_(control), options_(options), propagator_(problem, rows) {}
 
     GreedyResult run() {
-        GreedyResult result;
         if (!propagator_.propagate_all()) {
-            result.is_infeasible = true;
-            return result;
+            result_.is_infeasible = true;
+            return std::move(result_);
         }
         root_ = propagator_.trail().size();
-        if (construct(result)) {
-            result.solution = solution();
-        } else {
-            propagator_.undo(root_);
-            search(result);
-        }
-        control_.spend((propagator_.work() + work_) / kEntriesPerTick);
-        return result;
+        const GreedyRule rule = options_.rule;
+        const bool is_best_of = rule == GreedyRule::Best && options_.start.empty();
+        construct(rule == GreedyRule::Best ? GreedyRule::Gain : rule);
+        if (!result_.solution || (is_best_of && !stops())) construct(GreedyRule::Blocked);
+        if (!result_.solution) search();
+        charge(0);
+        return std::move(result_);
     }
 
 private:
-    struct Candidate {
-        double score;
-        Label label;
-        bool operator<(const Candidate& other) const {
-            return score != other.score ? score < other.score : label > other.label;
-        }
-    };
-
     Solution solution() const {
         Solution s;
         s.labels.resize(problem_.label_count());
@@ -61,96 +65,76 @@ private:
         return s;
     }
 
-    /// Assigns; where that contradicts, assigns the opposite. False: a dead end.
-    bool decide(Label i, bool value) {
-        if (!propagator_.is_free(i)) return true;
-        const std::size_t size = propagator_.trail().size();
-        if (propagator_.assign(i, value)) return true;
-        propagator_.undo(size);
-        return propagator_.assign(i, !value);
+    /// Keeps the labeling by one rule if it is the best so far.
+    void construct(GreedyRule rule) {
+        if (!complete(rule)) {
+            ++result_.backtracks;
+            dead_end_.assign(propagator_.values().begin(), propagator_.values().end());
+        } else if (Solution s = solution();
+                   !result_.solution || s.value > result_.solution->value) {
+            result_.solution = std::move(s);
+            result_.rule = rule;
+        }
+        propagator_.undo(root_);
     }
 
-    bool construct(GreedyResult& result) {
+    /// False: a dead end.
+    bool complete(GreedyRule rule) {
         const Label n = problem_.label_count();
+        GreedyState state(problem_, propagator_, rule);
         if (!options_.start.empty()) {
             for (int value : {1, 0}) {
                 for (Label i = 0; i < n; ++i) {
-                    if (options_.start[i] == value && !decide(i, value == 1)) return false;
+                    if (options_.start[i] == value && !state.decide(i, value == 1)) return false;
                 }
             }
+            state.update();
         }
-        prepare();
-        while (!heap_.empty()) {
-            const Candidate top = heap_.top();
-            heap_.pop();
-            if (!propagator_.is_free(top.label) || top.score != score(top.label)) continue;
-            if (gain_[top.label] + potential_[top.label] <= 0) continue;
-            if (!decide(top.label, true)) return false;
-            ++result.insertions;
-            absorb();
-            if (n > kUninterrupted && control_.spend(0)) break;
+        std::int64_t work = 0;
+        for (Label i = state.best(); i >= 0; i = state.best()) {
+            const double score = state.score(i);
+            if (!state.decide(i, true)) return false;
+            ++result_.insertions;
+            state.update();
+            if (rule == GreedyRule::Curve && propagator_.value(i) == 1 &&
+                !(follow(state, i, score) && follow(state, i, score))) {
+                return false;
+            }
+            if (state.work() - work < kEntriesPerCheck) continue;
+            charge(state.work() - work);
+            work = state.work();
+            if (stops()) break;
         }
+        charge(state.work() - work);
         for (Label i = 0; i < n; ++i) {
-            if (!decide(i, false)) return false;
+            if (!state.decide(i, false)) return false;
         }
         return true;
     }
 
-    void prepare() {
-        const Label n = problem_.label_count();
-        gain_.resize(n);
-        potential_.assign(n, 0);
-        worth_.resize(n);
-        blocked_.assign(n, 0);
-        for (Label i = 0; i < n; ++i) {
-            gain_[i] = static_cast<double>(problem_.weight(i));
+    /// Goes on from a chosen label along its strongest bonus to an undecided one; false: dead end.
+    bool follow(GreedyState& state, Label i, double first_score) {
+        while (true) {
+            Label next = -1;
+            Value strongest = 0;
             for (const auto& b : problem_.bonuses_of(i)) {
-                potential_[i] += 0.5 * static_cast<double>(b.value);
+                if (!state.is_free(b.label) || b.value <= strongest) continue;
+                strongest = b.value;
+                next = b.label;
             }
-            worth_[i] = std::max(0.0, gain_[i] + potential_[i]);
+            if (next < 0 || state.gain(next) <= 0) return true;
+            if (state.score(next) < kRunShare * first_score) return true;
+            if (!state.decide(next, true)) return false;
+            ++result_.insertions;
+            state.update();
+            if (propagator_.value(next) != 1) return true;
+            i = next;
         }
-        for (const Conflict& c : problem_.conflicts()) {
-            blocked_[c.first] += worth_[c.second];
-            blocked_[c.second] += worth_[c.first];
-        }
-        absorb();
-        for (Label i = 0; i < n; ++i) push(i);
     }
 
-    /// Brings gains and blocked gains up to date with the trail.
-    void absorb() {
-        changed_.clear();
-        const auto trail = propagator_.trail();
-        for (; absorbed_ < trail.size(); ++absorbed_) {
-            const Label i = trail[absorbed_];
-            const bool is_chosen = propagator_.value(i) == 1;
-            for (const auto& b : problem_.bonuses_of(i)) {
-                potential_[b.label] -= 0.5 * static_cast<double>(b.value);
-                if (is_chosen) gain_[b.label] += static_cast<double>(b.value);
-                changed_.push_back(b.label);
-            }
-            for (Label j : problem_.conflicts_of(i)) {
-                blocked_[j] -= worth_[i];
-                changed_.push_back(j);
-            }
-            work_ += static_cast<std::int64_t>(problem_.conflicts_of(i).size());
-        }
-        std::sort(changed_.begin(), changed_.end());
-        changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-        for (Label i : changed_) push(i);
-        work_ += 8 * static_cast<std::int64_t>(changed_.size());
-    }
-
-    double score(Label i) const {
-        return (gain_[i] + potential_[i]) / (1.0 + std::max(0.0, blocked_[i]));
-    }
-
-    void push(Label i) {
-        if (propagator_.is_free(i)) heap_.push({score(i), i});
-    }
-
-    /// Depth-first search for any solution: labels with gain first at 1, the others at 0.
-    void search(GreedyResult& result) {
+    /// Depth-first search for any solution that tries first what the last construction decided
+    /// before its dead end.
+    void search() {
         struct Decision {
             Label label;
             std::size_t trail_size;
@@ -162,23 +146,25 @@ private:
             return problem_.rules_of(a).size() > problem_.rules_of(b).size();
         });
         std::vector<Decision> decisions;
-        auto preferred = [&](Label i) { return problem_.weight(i) > 0; };
+        auto preferred = [&](Label i) {
+            return dead_end_[i] == Propagator::kFree ? problem_.weight(i) > 0 : dead_end_[i] == 1;
+        };
         for (std::size_t at = 0;;) {
             while (at < order.size() && !propagator_.is_free(order[at])) ++at;
             if (at == order.size()) {
-                result.solution = solution();
+                result_.solution = solution();
                 return;
             }
             decisions.push_back({order[at], propagator_.trail().size(), false});
             bool is_consistent = propagator_.assign(order[at], preferred(order[at]));
             while (!is_consistent) {
-                if (++result.backtracks > options_.max_backtracks || control_.is_over()) return;
+                if (++result_.backtracks > options_.max_backtracks || control_.is_over()) return;
                 while (!decisions.empty() && decisions.back().is_flipped) {
                     propagator_.undo(decisions.back().trail_size);
                     decisions.pop_back();
                 }
                 if (decisions.empty()) {
-                    result.is_infeasible = true;
+                    result_.is_infeasible = true;
                     return;
                 }
                 Decision& last = decisions.back();
@@ -190,33 +176,49 @@ private:
         }
     }
 
+    void charge(std::int64_t entries) {
+        const std::int64_t propagated = propagator_.work();
+        control_.spend((entries + propagated - charged_) / kEntriesPerTick);
+        charged_ = propagated;
+    }
+
+    bool stops() const { return problem_.label_count() > kUninterrupted && control_.should_stop(); }
+
     const LabelingProblem& problem_;
     RunControl& control_;
     const GreedyOptions& options_;
     Propagator propagator_;
-    std::size_t root_ = 0, absorbed_ = 0;
-    std::vector<double> gain_;       ///< weight and bonuses to chosen labels
-    std::vector<double> potential_;  ///< half the bonuses to undecided labels
-    std::vector<double> worth_;      ///< what a label counts for where it is blocked
-    std::vector<double> blocked_;    ///< worth of undecided conflict partners
-    std::vector<Label> changed_;
-    std::priority_queue<Candidate> heap_;
-    std::int64_t work_ = 0;
+    GreedyResult result_;
+    std::size_t root_ = 0;
+    std::vector<std::int8_t> dead_end_;  ///< the partial labeling of the last one
+    std::int64_t charged_ = 0;
 };
+
+GreedyRule rule_of(const SolveOptions& options) {
+    const auto it = options.extra.find("rule");
+    if (it == options.extra.end()) return GreedyRule::Best;
+    std::string known;
+    for (const auto& [name, rule] : kRules) {
+        if (it->second == name) return rule;
+        known += (known.empty() ? "" : ", ") + std::string(name);
+    }
+    throw InputError("option rule: '" + it->second + "' is none of " + known);
+}
 
 class GreedySolver final : public Solver {
 public:
     std::string name() const override { return "greedy"; }
     std::string description() const override {
-        return "construction by gain per blocked gain, near-linear";
+        return "construction label by label or run by run, near-linear";
     }
     bool is_exact() const override { return false; }
     SolveResult solve(const LabelingProblem& problem, const SolveOptions& options) const override {
         require_valid_options(problem, options);
-        require_known_extras(options, name(), {});
+        require_known_extras(options, name(), {"rule"});
         RunControl control(options);
         const RowSystem rows(problem);
         GreedyOptions greedy;
+        greedy.rule = rule_of(options);
         greedy.start = options.warm_start;
         GreedyResult found = greedy_labeling(problem, rows, control, greedy);
         if (found.solution) control.report(found.solution->value, std::nullopt);
