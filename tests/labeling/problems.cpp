@@ -4,7 +4,6 @@
 #include <set>
 #include <vector>
 
-#include "labeling/formats.h"
 #include "labeling/solution.h"
 
 namespace labeling_test {
@@ -170,9 +169,10 @@ LabelingProblem curve_bundle(std::mt19937_64& engine, const BundleOptions& optio
     return builder.build();
 }
 
-std::optional<Value> enumerate_optimum(const LabelingProblem& problem) {
+std::optional<labeling::Solution> enumerate_best(const LabelingProblem& problem) {
     const Label n = problem.label_count();
     std::optional<Value> best;
+    std::uint32_t best_set = 0;
     for (std::uint32_t set = 0; set < (std::uint32_t{1} << n); ++set) {
         auto is_on = [set](Label i) { return ((set >> i) & 1U) != 0; };
         bool is_feasible = true;
@@ -180,12 +180,13 @@ std::optional<Value> enumerate_optimum(const LabelingProblem& problem) {
             is_feasible = is_feasible && !(is_on(c.first) && is_on(c.second));
         }
         for (const Rule& rule : problem.rules()) {
+            if (!is_feasible) break;
             std::int64_t sum = 0;
             for (const Term& t : rule.terms) sum += is_on(t.label) ? t.coefficient : 0;
             const std::int64_t side = rule.right_hand_side;
-            is_feasible = is_feasible && (rule.relation == Relation::LessEqual      ? sum <= side
-                                          : rule.relation == Relation::GreaterEqual ? sum >= side
-                                                                                    : sum == side);
+            is_feasible = rule.relation == Relation::LessEqual      ? sum <= side
+                          : rule.relation == Relation::GreaterEqual ? sum >= side
+                                                                    : sum == side;
         }
         if (!is_feasible) continue;
         Value value = 0;
@@ -193,9 +194,19 @@ std::optional<Value> enumerate_optimum(const LabelingProblem& problem) {
         for (const Bonus& b : problem.bonuses()) {
             value += is_on(b.first) && is_on(b.second) ? b.value : 0;
         }
-        if (!best || value > *best) best = value;
+        if (best && value <= *best) continue;
+        best = value;
+        best_set = set;
     }
-    return best;
+    if (!best) return std::nullopt;
+    labeling::Solution solution{{}, *best};
+    for (Label i = 0; i < n; ++i) solution.labels.push_back((best_set >> i) & 1U);
+    return solution;
+}
+
+std::optional<Value> enumerate_optimum(const LabelingProblem& problem) {
+    const auto best = enumerate_best(problem);
+    return best ? std::optional(best->value) : std::nullopt;
 }
 
 std::vector<std::optional<Value>> all_values(const LabelingProblem& problem) {
@@ -209,38 +220,6 @@ std::vector<std::optional<Value>> all_values(const LabelingProblem& problem) {
     }
     return values;
 }
-
-namespace {
-
-/// The problem without what the four predicates refuse.
-LabelingProblem filtered(const LabelingProblem& problem, Label without, std::size_t conflict,
-                         std::size_t bonus, std::size_t rule) {
-    ProblemBuilder builder;
-    auto renamed = [without](Label i) { return without >= 0 && i > without ? i - 1 : i; };
-    for (Label i = 0; i < problem.label_count(); ++i) {
-        if (i != without) builder.add_label(problem.weight(i));
-    }
-    for (std::size_t k = 0; k < problem.conflict_count(); ++k) {
-        const Conflict& c = problem.conflicts()[k];
-        if (k == conflict || c.first == without || c.second == without) continue;
-        builder.add_conflict(renamed(c.first), renamed(c.second));
-    }
-    for (std::size_t k = 0; k < problem.bonus_count(); ++k) {
-        const Bonus& b = problem.bonuses()[k];
-        if (k == bonus || b.first == without || b.second == without) continue;
-        builder.add_bonus(renamed(b.first), renamed(b.second), b.value);
-    }
-    for (std::size_t k = 0; k < problem.rule_count(); ++k) {
-        if (k == rule) continue;
-        Rule kept = problem.rules()[k];
-        std::erase_if(kept.terms, [without](const Term& t) { return t.label == without; });
-        for (Term& t : kept.terms) t.label = renamed(t.label);
-        builder.add_rule(std::move(kept));
-    }
-    return builder.build();
-}
-
-}  // namespace
 
 LabelingProblem permuted(const LabelingProblem& problem, const std::vector<Label>& order) {
     ProblemBuilder builder;
@@ -260,33 +239,6 @@ LabelingProblem permuted(const LabelingProblem& problem, const std::vector<Label
         builder.add_rule(std::move(rule));
     }
     return builder.build();
-}
-
-std::string shrunk(const LabelingProblem& problem,
-                   const std::function<bool(const LabelingProblem&)>& fails) {
-    constexpr auto kNone = static_cast<std::size_t>(-1);
-    LabelingProblem current = problem;
-    for (bool is_smaller = true; is_smaller;) {
-        is_smaller = false;
-        auto attempt = [&](LabelingProblem candidate) {
-            if (!fails(candidate)) return false;
-            current = std::move(candidate);
-            return is_smaller = true;
-        };
-        for (Label i = 0; i < current.label_count(); ++i) {
-            if (attempt(filtered(current, i, kNone, kNone, kNone))) --i;
-        }
-        for (std::size_t k = 0; k < current.rule_count();) {
-            if (!attempt(filtered(current, -1, kNone, kNone, k))) ++k;
-        }
-        for (std::size_t k = 0; k < current.conflict_count();) {
-            if (!attempt(filtered(current, -1, k, kNone, kNone))) ++k;
-        }
-        for (std::size_t k = 0; k < current.bonus_count();) {
-            if (!attempt(filtered(current, -1, kNone, k, kNone))) ++k;
-        }
-    }
-    return labeling::format_problem(current, labeling::ProblemFormat::Lab);
 }
 
 }  // namespace labeling_test

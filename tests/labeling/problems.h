@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <random>
-#include <string>
+#include <vector>
 
 #include "labeling/problem.h"
+#include "labeling/shrink.h"
+#include "labeling/solution.h"
 
 namespace labeling_test {
 
@@ -36,6 +37,9 @@ struct BundleOptions {
 /// keep-labels and valence rules; short segments with support and inherited-conflict rules.
 LabelingProblem curve_bundle(std::mt19937_64& engine, const BundleOptions& options);
 
+/// A best of all 2^n labelings by plain evaluation; nullopt when none is feasible.
+std::optional<labeling::Solution> enumerate_best(const LabelingProblem& problem);
+
 /// Best value over all 2^n labelings by plain evaluation; nullopt when none is feasible.
 std::optional<Value> enumerate_optimum(const LabelingProblem& problem);
 
@@ -44,9 +48,5 @@ std::vector<std::optional<Value>> all_values(const LabelingProblem& problem);
 
 /// The same problem with label i renamed to order[i].
 LabelingProblem permuted(const LabelingProblem& problem, const std::vector<labeling::Label>& order);
-
-/// Drops labels, rules, conflicts and bonuses while `fails` stays true; text of what is left.
-std::string shrunk(const LabelingProblem& problem,
-                   const std::function<bool(const LabelingProblem&)>& fails);
 
 }  // namespace labeling_test
