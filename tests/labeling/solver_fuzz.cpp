@@ -89,6 +89,12 @@ void magnify(ProblemParts& parts) {
     for (auto& b : parts.bonuses) b.value *= factor;
 }
 
+/// Values so small that labelings differ by one.
+void coarsen(ProblemParts& parts) {
+    for (Value& w : parts.weights) w %= 4;
+    for (auto& b : parts.bonuses) b.value %= 5;
+}
+
 enum class Start { None, Best, Partial, Random };
 enum class Limit { None, Work, Clock, Stop };
 
@@ -121,6 +127,8 @@ Configuration draw(const std::string& solver, std::mt19937_64& engine) {
                 off < 7 ? static_cast<std::int64_t>(k) == off : off < 14 && pick(engine, 0, 1) == 0;
             if (is_off) c.extra[techniques[k]] = "off";
         }
+        // An optimal start would hide wrong cuts and fixings.
+        if (pick(engine, 0, 2) == 0) c.extra["heuristics"] = "off";
         const std::int64_t tree = pick(engine, 0, 3);
         if (tree < 3) c.extra["tree-size"] = std::to_string(tree * 4);
     } else if (solver == "greedy") {
@@ -301,7 +309,9 @@ LabelingProblem fuzz_problem(std::uint64_t seed) {
         parts.remove_label(static_cast<Label>(pick(engine, 0, std::ssize(parts.weights) - 1)));
     }
     if (pick(engine, 0, 2) == 0) add_duplicates(engine, parts);
-    if (pick(engine, 0, 19) == 0) magnify(parts);
+    const std::int64_t values = pick(engine, 0, 19);
+    if (values == 0) magnify(parts);
+    if (values >= 14) coarsen(parts);
     LabelingProblem problem = parts.build();
     if (pick(engine, 0, 1) == 0) return problem;
     std::vector<Label> order(static_cast<std::size_t>(problem.label_count()));
@@ -328,7 +338,9 @@ LabelingProblem larger_fuzz_problem(std::uint64_t seed) {
         return ProblemParts(curve_bundle(engine, bundle));
     }();
     if (pick(engine, 0, 2) == 0) add_duplicates(engine, parts);
-    if (pick(engine, 0, 19) == 0) magnify(parts);
+    const std::int64_t values = pick(engine, 0, 19);
+    if (values == 0) magnify(parts);
+    if (values >= 14) coarsen(parts);
     return parts.build();
 }
 

@@ -21,7 +21,7 @@ TEST_P(SolverFuzz, KeepsEveryPromise) {
 }
 
 TEST_P(SolverFuzz, KeepsEveryPromiseOnLargerProblems) {
-    constexpr std::uint64_t kProblems = 200;
+    constexpr std::uint64_t kProblems = 1000;
     for (std::uint64_t seed = 1; seed <= kProblems; ++seed) {
         ASSERT_EQ(fuzz_failure(GetParam(), seed, FuzzSize::Larger), "");
     }
