@@ -36,6 +36,8 @@ public:
     /// Dual simplex from the current basis; stops after `max_iterations`.
     virtual Outcome solve(std::int64_t max_iterations) = 0;
     virtual std::int64_t iterations() const = 0;  ///< of the last solve()
+    /// Asked every few iterations of solve(); true ends it with Stopped. Empty: never.
+    virtual void stop_when(std::function<bool()>) {}
     virtual std::span<const double> columns() const = 0;
     virtual std::span<const double> activities() const = 0;
     /// >= 0 for a binding row of an optimal basis.

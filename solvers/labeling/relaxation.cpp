@@ -92,6 +92,10 @@ void Relaxation::unfix(std::int32_t column) {
 LpEngine::Outcome Relaxation::solve(RunControl& control, std::int64_t max_iterations) {
     constexpr std::int64_t kChunk = 1000;
     bound_ = kHugeBound;
+    engine_->stop_when([&control] {
+        control.check();
+        return control.is_over();
+    });
     while (true) {
         const std::int64_t chunk = std::min(kChunk, max_iterations);
         const auto outcome = engine_->solve(chunk);

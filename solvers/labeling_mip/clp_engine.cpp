@@ -1,6 +1,7 @@
 // Clp's dual simplex behind LpEngine. Clp minimises, so objective, multipliers and reduced costs
 // change sign on the way in and out. Scaling is off: coefficients are small integers, and
 // multipliers come out as they are. Work areas and factorization are kept between solves.
+#include <ClpEventHandler.hpp>
 #include <ClpSimplex.hpp>
 #include <algorithm>
 #include <cmath>
@@ -10,18 +11,31 @@
 namespace labeling {
 namespace {
 
+/// Ends a solve between two iterations; the clock is too slow to be read after each.
+class StopHandler final : public ClpEventHandler {
+public:
+    explicit StopHandler(const std::function<bool()>* stop) : stop_(stop) {}
+    int event(Event which) override {
+        constexpr int kIterationsPerLook = 16;
+        if (which != endOfIteration || !*stop_) return -1;
+        if (++iterations_ % kIterationsPerLook != 0) return -1;
+        return (*stop_)() ? 0 : -1;
+    }
+    ClpEventHandler* clone() const override { return new StopHandler(*this); }
+
+private:
+    const std::function<bool()>* stop_;
+    int iterations_ = 0;
+};
+
 class ClpEngine final : public LpEngine {
 public:
-    ClpEngine() {
-        simplex_.setLogLevel(0);
-        simplex_.scaling(0);
-    }
+    ClpEngine() { prepare(); }
 
     void reset(std::span<const double> objective, std::span<const double> lower,
                std::span<const double> upper) override {
         simplex_ = ClpSimplex();
-        simplex_.setLogLevel(0);
-        simplex_.scaling(0);
+        prepare();
         simplex_.resize(0, static_cast<int>(objective.size()));
         for (std::size_t c = 0; c < objective.size(); ++c) {
             const int column = static_cast<int>(c);
@@ -71,6 +85,7 @@ public:
             case 1:
                 return Outcome::Infeasible;
             case 3:
+            case 5:  // by the handler
                 copy_results();
                 return Outcome::Stopped;
             default:
@@ -80,6 +95,7 @@ public:
     }
 
     std::int64_t iterations() const override { return iterations_; }
+    void stop_when(std::function<bool()> stop) override { stop_ = std::move(stop); }
     std::span<const double> columns() const override {
         return {simplex_.primalColumnSolution(),
                 static_cast<std::size_t>(simplex_.numberColumns())};
@@ -132,6 +148,13 @@ public:
     }
 
 private:
+    void prepare() {
+        simplex_.setLogLevel(0);
+        simplex_.scaling(0);
+        const StopHandler handler(&stop_);
+        simplex_.passInEventHandler(&handler);
+    }
+
     static BasisStatus translate(ClpSimplex::Status status) {
         switch (status) {
             case ClpSimplex::basic:
@@ -195,6 +218,7 @@ private:
         for (int c = 0; c < columns; ++c) reduced_costs_[c] = -simplex_.dualColumnSolution()[c];
     }
 
+    std::function<bool()> stop_;
     ClpSimplex simplex_;
     std::vector<int> pending_columns_;
     std::vector<double> pending_coefficients_, pending_lower_, pending_upper_;
