@@ -1,4 +1,5 @@
-// The exact solvers' common frame. Root propagation and decomposition first; then part by part,
+// The exact solvers' common frame. Reductions, root propagation and decomposition first; then part
+// by part,
 // small parts first, because thousands of them close at once, and in passes of growing allowance. A
 // part of a few labels goes straight to the depth-first tree; a larger one gets a local
 // search as long as its size justifies, then branch-and-cut where an LP is linked. Value and bound
@@ -8,8 +9,10 @@
 #include <algorithm>
 
 #include "labeling/errors.h"
+#include "labeling/greedy.h"
 #include "labeling/part_search.h"
 #include "labeling/propagation.h"
+#include "labeling/reductions.h"
 #include "labeling/rows.h"
 #include "labeling/run_control.h"
 #include "labeling/subproblem.h"
@@ -31,17 +34,24 @@ class ExactSearch {
 public:
     ExactSearch(const LabelingProblem& problem, const SolveOptions& options,
                 const ExactSearchOptions& exact)
-        : problem_(problem),
+        : original_(problem),
           options_(options),
           exact_(exact),
           techniques_(techniques_of(options, exact.name)),
           control_(options, exact.default_work_limit),
-          rows_(problem),
-          propagator_(problem, rows_),
-          decomposer_(problem, rows_) {}
+          reduced_(techniques_.reductions ? std::optional(reduce_problem(problem, control_))
+                                          : std::nullopt),
+          problem_(reduced_ ? reduced_->problem() : original_),
+          warm_start_(reduced_ ? reduced_->project(options.warm_start) : options.warm_start),
+          rows_(problem_),
+          propagator_(problem_, rows_),
+          decomposer_(problem_, rows_) {}
 
     SolveResult run() {
+        if (reduced_ && reduced_->is_infeasible()) return infeasible();
         if (!propagator_.propagate_all()) return infeasible();
+        if (reduced_) offset_ = reduced_->offset();
+        take_warm_start();
         decided_ = decided_value(problem_, propagator_.values());
         labels_.assign(problem_.label_count(), 0);
         for (Label i = 0; i < problem_.label_count(); ++i) labels_[i] = propagator_.value(i) == 1;
@@ -77,7 +87,7 @@ private:
     };
 
     SolveResult infeasible() {
-        return finish(problem_, exact_.name, control_, std::nullopt, std::nullopt, true);
+        return finish(original_, exact_.name, control_, std::nullopt, std::nullopt, true);
     }
 
     SolveResult result() {
@@ -94,8 +104,13 @@ private:
                 whole.labels[part.sub.to_parent[k]] = part.solution->labels[k];
             }
         }
-        if (is_complete) solution = std::move(whole);
-        SolveResult result = finish(problem_, exact_.name, control_, std::move(solution), bound);
+        if (is_complete) {
+            solution = reduced_ ? reduced_->lift(original_, whole) : std::move(whole);
+        }
+        if (given_ && (!solution || given_->value > solution->value)) solution = given_;
+        SolveResult result =
+            finish(original_, exact_.name, control_, std::move(solution), bound + offset_);
+        add_reductions(result);
         result.statistics["parts"] = static_cast<double>(parts_.size());
         result.statistics["nodes"] = static_cast<double>(statistics_.nodes);
         result.statistics["lp-iterations"] = static_cast<double>(statistics_.lp_iterations);
@@ -105,8 +120,28 @@ private:
         return result;
     }
 
+    /// A complete feasible start counts as it is: reductions may have no place for it.
+    void take_warm_start() {
+        const auto& start = options_.warm_start;
+        if (!reduced_ || start.empty() || std::count(start.begin(), start.end(), -1) > 0) return;
+        Solution given{{start.begin(), start.end()}, 0};
+        given.value = labeling_value(original_, given.labels);
+        if (!check_solution(original_, given).is_feasible) return;
+        control_.report(given.value, std::nullopt);
+        given_ = std::move(given);
+    }
+
+    void add_reductions(SolveResult& result) const {
+        if (!reduced_) return;
+        const ReductionStatistics& s = reduced_->statistics();
+        result.statistics["reduced-labels"] = static_cast<double>(s.labels);
+        result.statistics["reduced-conflicts"] = static_cast<double>(s.conflicts);
+        result.statistics["reduced-bonuses"] = static_cast<double>(s.bonuses);
+        result.statistics["reduced-rules"] = static_cast<double>(s.rules);
+    }
+
     void report() {
-        Value value = decided_, bound = decided_;
+        Value value = decided_ + offset_, bound = decided_ + offset_;
         bool is_complete = true;
         for (const Part& part : parts_) {
             bound += part.bound;
@@ -132,8 +167,8 @@ private:
     /// False: the part has no solution.
     bool start(Part& part) {
         std::vector<std::int8_t> labels;
-        if (!options_.warm_start.empty()) {
-            for (Label i : part.sub.to_parent) labels.push_back(options_.warm_start[i]);
+        if (!warm_start_.empty()) {
+            for (Label i : part.sub.to_parent) labels.push_back(warm_start_[i]);
         }
         PartStart found = start_part(part.sub.problem, labels, control_, part_options(part));
         part.solution = std::move(found.solution);
@@ -175,17 +210,21 @@ private:
         return true;
     }
 
-    const LabelingProblem& problem_;
+    const LabelingProblem& original_;
     const SolveOptions& options_;
     const ExactSearchOptions& exact_;
     const Techniques techniques_;
     RunControl control_;
+    const std::optional<ReducedProblem> reduced_;
+    const LabelingProblem& problem_;  ///< what is left after reductions
+    const std::vector<std::int8_t> warm_start_;
+    std::optional<Solution> given_;  ///< the warm start, if it was complete and feasible
     const RowSystem rows_;
     Propagator propagator_;
     Decomposer decomposer_;
     std::vector<Part> parts_;
     std::vector<std::uint8_t> labels_;
-    Value decided_ = 0;
+    Value decided_ = 0, offset_ = 0;
     BranchAndCutStatistics statistics_;
 };
 

@@ -15,6 +15,7 @@ struct Techniques {
     Label tree_size = 24;
     /// Greedy and local search before and inside of branch-and-cut; a warm start needs them.
     bool heuristics = true;
+    bool reductions = true;        ///< reductions.h, before anything else
     bool clique_cuts = true;       ///< separated ones; those that make the model complete stay
     bool triple_cuts = true;       ///< triple_cuts.h
     bool gomory_cuts = true;       ///< gomory_cuts.h

@@ -53,7 +53,7 @@ struct Case {
 class BranchAndCut : public testing::TestWithParam<Case> {
 protected:
     Extras extras() const {
-        Extras all{{"tree-size", "0"}, {"heuristics", "off"}};
+        Extras all{{"tree-size", "0"}, {"heuristics", "off"}, {"reductions", "off"}};
         for (const auto& [key, value] : GetParam().extras) all[key] = value;
         return all;
     }
@@ -105,6 +105,7 @@ TEST_P(BranchAndCut, AgreesWithEnumerationOnBundles) {
 const Case kCases[] = {
     {"everything", {}},
     {"with_heuristics", {{"heuristics", "on"}}},
+    {"with_reductions", {{"reductions", "on"}}},
     {"without_cliques", {{"clique-cuts", "off"}}},
     {"without_triples", {{"triple-cuts", "off"}}},
     {"without_gomory", {{"gomory-cuts", "off"}}},
@@ -123,6 +124,7 @@ double total(const std::string& key, Extras extras) {
     SolveOptions options;
     extras["tree-size"] = "0";
     extras["heuristics"] = "off";
+    extras["reductions"] = "off";
     options.extra = extras;
     double sum = 0;
     for (int k = 0; k < 600; ++k) {

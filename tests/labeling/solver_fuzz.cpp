@@ -118,13 +118,14 @@ Configuration draw(const std::string& solver, std::mt19937_64& engine) {
     c.seed = engine();
     if (c.is_exact() && solver != "cbc") {
         // One technique off, or any subset.
-        const std::vector<std::string> techniques{"heuristics",      "clique-cuts", "triple-cuts",
-                                                  "gomory-cuts",     "fixing",      "restarts",
-                                                  "strong-branching"};
-        const std::int64_t off = pick(engine, 0, 15);
+        const std::vector<std::string> techniques{"heuristics",       "clique-cuts", "triple-cuts",
+                                                  "gomory-cuts",      "fixing",      "restarts",
+                                                  "strong-branching", "reductions"};
+        const auto count = static_cast<std::int64_t>(techniques.size());
+        const std::int64_t off = pick(engine, 0, 2 * count + 1);
         for (std::size_t k = 0; k < techniques.size(); ++k) {
-            const bool is_off =
-                off < 7 ? static_cast<std::int64_t>(k) == off : off < 14 && pick(engine, 0, 1) == 0;
+            const bool is_off = off < count ? static_cast<std::int64_t>(k) == off
+                                            : off < 2 * count && pick(engine, 0, 1) == 0;
             if (is_off) c.extra[techniques[k]] = "off";
         }
         // An optimal start would hide wrong cuts and fixings.
