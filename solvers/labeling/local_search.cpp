@@ -1,288 +1,284 @@
-// Local search by simulated annealing (Kirkpatrick, Gelatt & Vecchi 1983) over compound moves, in
-// many short chains. After a chain the best labeling so far and the chain's end are compared:
-// labels in which they differ fall into parts that no conflict, bonus or rule joins, and each part
-// is taken from whichever is better (partition crossover, Whitley, Hains & Howe 2009). So a chain
-// loses nothing, however hot it starts, and short hot chains beat long slow ones by far (measured:
-// four times smaller gap after equal work). Between chains over the whole problem come chains over
-// windows of a few hundred connected labels, which matter on large dense problems, where the
-// difference of a global chain is one single part.
-// Temperature is in units of the median of w + half the bonuses; the threshold of a move is drawn
-// before it is tried, which rejects most moves after one scan. Labels without weight and bonus (the
-// keep-labels of extraordinary nodes) are never proposed: moves pull them in where a rule needs
-// them.
+// Local search: climbs by annealing chains over the whole problem and over windows of some hundred
+// connected labels, with partition crossover after each (annealer.cpp) and the kind of chain chosen
+// by what pays (chain_schedule.cpp). Two lanes anneal from the same best and their gains are merged
+// by partition crossover; on large problems gains in different places add up, on small ones the
+// second lane is a second try. A climb that has come to nothing for a while is put into a small
+// pool and the next one starts hot. A finished climb is recombined with the pool: where two good
+// labelings differ is annealed with everything else fixed (the idea of CHILS, Grossmann, Langedal &
+// Schulz 2024, whose cores are these differences).
 #include "labeling/local_search.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numeric>
 
-#include "labeling/compound_move.h"
-#include "labeling/difference_parts.h"
+#include "labeling/chain_schedule.h"
+#include "labeling/errors.h"
 #include "labeling/greedy.h"
 #include "labeling/random.h"
-#include "labeling/search_model.h"
-#include "labeling/search_state.h"
+#include "labeling/region_splitter.h"
+#include "labeling/search_lanes.h"
 
 namespace labeling {
 namespace {
 
-constexpr std::int64_t kEntriesPerTick = 24;
-constexpr std::int64_t kEntriesPerMove = 12;
-constexpr int kMovesPerCheck = 256;
-constexpr int kLogTableBits = 12;
-
-// Chosen by measurement on the problems in data/instances at 1, 10 and 60 million ticks.
-constexpr double kColdest = 0.1;
+// Chosen by measurement on the problems in data/instances and generated ones at 1 and 10 s.
+constexpr double kColdest = 0.2;
 constexpr std::array<double, 4> kReheats{1.2, 0.6, 2.4, 0.9};
-constexpr std::int64_t kFirstChainTicks = 200;  ///< per label
-constexpr std::int64_t kChainTicks = 25;        ///< per label
-constexpr std::int64_t kWindowTicks = 30;       ///< per label of the window
-constexpr int kWindowsPerChain = 5;
+constexpr double kFirstTicks = 150;  ///< per label
+constexpr std::int64_t kLeastRound = 20000;
+constexpr double kPatience = 500;  ///< ticks per label without gain
+constexpr double kSplitSize = 1000;
+constexpr double kPatienceShare = 0.5;
 constexpr std::uint32_t kSmallestWindow = 100, kLargestWindow = 500;
-constexpr std::uint32_t kMovesPerRun = 16;  ///< one insertion in so many is a run
-constexpr std::uint32_t kLongestRun = 8;
+constexpr std::size_t kPoolSize = 6;
+constexpr double kCoreTicks = 100;  ///< per label of a difference
+constexpr int kCoreRounds = 3;
 
-class Annealer {
+class LocalSearch {
 public:
-    Annealer(const LabelingProblem& problem, const RowSystem& rows, RunControl& control,
-             Solution start, const LocalSearchOptions& options,
-             const std::function<void(Value)>& report)
-        : problem_(problem),
-          options_(options),
+    LocalSearch(const LabelingProblem& problem, const RowSystem& rows, RunControl& control,
+                Solution start, const LocalSearchOptions& options,
+                const std::function<void(Value)>& report)
+        : options_(options),
           control_(control),
           report_(report),
           random_(options.seed),
           model_(problem, rows),
-          state_(model_, start.labels),
-          moves_(model_, state_, random_),
-          parts_(problem, rows),
-          in_window_(problem.label_count(), 0),
-          best_(std::move(start)),
-          reported_(best_.value) {
-        for (Label i = 0; i < problem.label_count(); ++i) {
-            all_labels_.push_back(i);
-            const bool is_proposed = problem.weight(i) > 0 || !problem.bonuses_of(i).empty();
-            (is_proposed ? proposals_ : fillers_).push_back(i);
-        }
-        set_scale();
-        for (std::size_t k = 0; k < log_table_.size(); ++k) {
-            log_table_[k] =
-                std::log((static_cast<double>(k) + 0.5) / static_cast<double>(log_table_.size()));
-        }
-    }
+          splitter_(model_),
+          lanes_(model_, start, options.seed, static_cast<std::size_t>(options.lanes),
+                 options.threads, control),
+          size_(static_cast<std::int64_t>(model_.proposals().size())),
+          best_(start),
+          climb_(std::move(start)) {}
 
     void run() {
-        if (proposals_.empty()) return;
-        const auto size = static_cast<std::int64_t>(proposals_.size());
-        run_chain(options_.start_temperature,
-                  options_.first_chain > 0 ? options_.first_chain : kFirstChainTicks * size);
+        if (size_ == 0) return;
         while (!control_.should_stop()) {
-            const bool has_windows = proposals_.size() > 2 * kSmallestWindow;
-            for (int k = 0; has_windows && k < kWindowsPerChain; ++k) run_window();
-            run_chain(kReheats[statistics.chains % kReheats.size()], 100 + kChainTicks * size);
+            climb();
+            if (!options_.restarts) continue;
+            if (options_.recombination) recombine();
+            insert(climb_);
         }
     }
 
     Solution take_best() { return std::move(best_); }
-    LocalSearchStatistics statistics;
+    LocalSearchStatistics statistics() {
+        LocalSearchStatistics sum;
+        sum.climbs = climbs_;
+        sum.recombined = recombined_;
+        for (std::size_t k = 0; k < lanes_.size(); ++k) {
+            const AnnealerStatistics& s = lanes_.lane(k).statistics;
+            sum.moves += s.moves;
+            sum.accepted += s.accepted;
+            sum.chains += s.chains;
+            sum.windows += s.windows;
+        }
+        return sum;
+    }
 
 private:
-    void set_scale() {
-        std::vector<double> worths;
-        for (Label i : proposals_) {
-            double worth = static_cast<double>(problem_.weight(i));
-            for (const auto& b : problem_.bonuses_of(i)) {
-                worth += 0.5 * static_cast<double>(b.value);
-            }
-            if (worth > 0) worths.push_back(worth);
-        }
-        if (worths.empty()) return;
-        const auto middle = worths.begin() + static_cast<std::ptrdiff_t>(worths.size() / 2);
-        std::nth_element(worths.begin(), middle, worths.end());
-        scale_ = std::max(1.0, *middle);
-    }
-
-    void run_chain(double hottest, std::int64_t ticks) {
-        anneal(hottest * scale_, kColdest * scale_, ticks);
-        descend();
-        recombine();
-        ++statistics.chains;
-    }
-
-    /// A chain that may change only labels near a random one (and keep-labels).
-    void run_window() {
-        if (control_.should_stop()) return;
-        const std::size_t size =
-            kSmallestWindow + random_.below(kLargestWindow - kSmallestWindow + 1);
-        collect_window(std::min(size, proposals_.size() / 2));
-        moves_.restrict_to(&in_window_);
-        window_.swap(proposals_);
-        const double hottest = (0.75 + 1.5 * random_.unit()) * scale_;
-        anneal(hottest, kColdest * scale_,
-               kWindowTicks * static_cast<std::int64_t>(proposals_.size()));
-        descend();
-        window_.swap(proposals_);
-        moves_.restrict_to(nullptr);
-        for (Label i : window_) in_window_[i] = 0;
-        recombine();
-        ++statistics.windows;
-    }
-
-    /// Breadth-first from a random label over bonuses and conflicts.
-    void collect_window(std::size_t size) {
-        for (Label i : fillers_) in_window_[i] = 0;
-        window_.clear();
-        auto add = [&](Label i) {
-            if (in_window_[i] != 0 || window_.size() >= size) return;
-            in_window_[i] = 1;
-            window_.push_back(i);
-        };
-        add(proposals_[random_.below(static_cast<std::uint32_t>(proposals_.size()))]);
-        for (std::size_t k = 0; k < window_.size() && window_.size() < size; ++k) {
-            for (const auto& b : problem_.bonuses_of(window_[k])) add(b.label);
-            for (Label j : problem_.conflicts_of(window_[k])) add(j);
-        }
-        for (Label i : fillers_) in_window_[i] = 1;
-    }
-
-    void anneal(double hot, double cold, std::int64_t ticks) {
+    void climb() {
         const std::int64_t first = control_.work();
-        const auto budget =
-            static_cast<double>(std::max<std::int64_t>(1, std::min(ticks, control_.work_left())));
-        const double ratio = std::log(cold / hot);
+        begin_climb();
+        ChainSchedule schedule(options_.windows && size_ > 2 * kSmallestWindow, options_.adaptive);
+        std::int64_t last_gain = control_.work();
         while (!control_.should_stop()) {
-            const double progress = static_cast<double>(control_.work() - first) / budget;
-            if (progress >= 1.0) return;
-            const double temperature = hot * std::exp(ratio * progress);
-            const std::int64_t before = state_.work();
-            for (int k = 0; k < kMovesPerCheck; ++k) propose(temperature);
-            report_best();
-            charge(state_.work() - before + kEntriesPerMove * kMovesPerCheck);
+            const std::int64_t before = control_.work();
+            const Value value = climb_.value;
+            std::size_t kind = schedule.choose(random_);
+            if (schedule.kind(kind).ticks * size_ > before - first) kind = 0;
+            run_round(schedule.kind(kind));
+            const std::int64_t now = control_.work();
+            schedule.credit(kind, static_cast<double>(climb_.value - value),
+                            static_cast<double>(now - before));
+            if (climb_.value > value) last_gain = now;
+            const double patience =
+                std::max(static_cast<double>(size_) * kPatience,
+                         kPatienceShare * static_cast<double>(last_gain - first));
+            if (options_.restarts && static_cast<double>(now - last_gain) > patience) break;
         }
+        ++climbs_;
     }
 
-    void propose(double temperature) {
-        ++statistics.moves;
-        const Label i = proposals_[random_.below(static_cast<std::uint32_t>(proposals_.size()))];
-        const auto threshold =
-            static_cast<Value>(temperature * log_table_[random_.next() >> (64 - kLogTableBits)]);
-        bool is_done = false;
-        if (!state_.is_on(i) && random_.below(kMovesPerRun) == 0) {
-            const int length = 2 + static_cast<int>(random_.below(kLongestRun - 1));
-            is_done = moves_.insert_run(i, length, threshold);
+    /// The first climb starts from what was given, the others from anywhere.
+    void begin_climb() {
+        Chain chain{options_.start_temperature, kColdest,
+                    static_cast<std::int64_t>(kFirstTicks * static_cast<double>(size_))};
+        if (climbs_ == 0 && options_.first_chain > 0) chain.ticks = options_.first_chain;
+        chain.ticks = std::min(chain.ticks, control_.work_left() / 4);
+        chain.ticks /= options_.lanes;
+        if (climbs_ == 0 && is_split()) {
+            return anneal_regions(chain, chain.ticks * options_.lanes / size_);
+        }
+        if (climbs_ == 0) {
+            lanes_.run(lanes_.size(), [&](Annealer& lane, std::size_t) { lane.run_chain(chain); });
         } else {
-            is_done = moves_.flip(i, threshold);
+            chain.hottest = 3.0;
+            lanes_.run(lanes_.size(), [&](Annealer& lane, std::size_t) { lane.restart(chain); });
+            climb_ = lanes_.lane(0).best();
         }
-        if (is_done) accept();
+        gather();
     }
 
-    void accept() {
-        ++statistics.accepted;
-        if (is_tracking_) {
-            since_best_.insert(since_best_.end(), state_.log().begin(), state_.log().end());
-            if (since_best_.size() > best_.labels.size()) {
-                is_tracking_ = false;
-                since_best_.clear();
+    void run_round(const ChainKind& kind) {
+        if (!kind.is_window && is_split()) return run_split(kind);
+        const std::int64_t ticks =
+            std::max(kLeastRound, (kind.is_window ? 25 : kind.ticks) * size_);
+        const int used = kind.used;
+        lanes_.run(lanes_.size(), [&](Annealer& lane, std::size_t k) {
+            const std::int64_t end = lane.work() + ticks;
+            for (std::size_t n = k; lane.work() < end && !lane.is_stopped(); ++n) {
+                Chain chain{0, kColdest, 0, options_.by_worth && lane.unit() < 0.5};
+                if (kind.is_window) {
+                    const auto size = static_cast<std::int64_t>(
+                        kSmallestWindow + lane.unit() * (kLargestWindow - kSmallestWindow));
+                    chain.ticks = kind.ticks * size;
+                    chain.hottest = 0.75 + 1.5 * lane.unit();
+                    lane.run_random_window(static_cast<std::size_t>(size), chain);
+                } else {
+                    chain.ticks = kind.ticks * size_;
+                    chain.hottest = kReheats[(used + n) % kReheats.size()];
+                    lane.run_chain(chain);
+                }
             }
-        }
-        state_.commit();
-        if (state_.value() > best_.value) keep();
+        });
+        gather();
     }
 
-    /// The current labeling becomes the best.
-    void keep() {
-        best_.value = state_.value();
-        if (is_tracking_) {
-            for (Label i : since_best_) best_.labels[i] = state_.is_on(i) ? 1 : 0;
-        } else {
-            best_.labels.assign(state_.labels().begin(), state_.labels().end());
-        }
-        since_best_.clear();
-        is_tracking_ = true;
+    bool is_split() const { return lanes_.size() > 1 && static_cast<double>(size_) > kSplitSize; }
+
+    /// Each lane anneals a region of its own, so that all gains can be kept.
+    void run_split(const ChainKind& kind) {
+        const bool is_by_worth = options_.by_worth && random_.unit() < 0.5;
+        Chain chain{kReheats[kind.used % kReheats.size()], kColdest, 0, is_by_worth};
+        anneal_regions(chain, kind.ticks);
     }
 
-    void report_best() {
-        if (best_.value == reported_) return;
-        reported_ = best_.value;
-        if (report_) report_(reported_);
+    void anneal_regions(const Chain& pattern, std::int64_t ticks) {
+        const auto regions = splitter_.split(random_, lanes_.size());
+        control_.spend(splitter_.take_work() / 16);
+        lanes_.run(lanes_.size(), [&](Annealer& lane, std::size_t k) {
+            Chain chain = pattern;
+            chain.ticks = ticks * static_cast<std::int64_t>(regions[k].size());
+            lane.run_window(regions[k], chain);
+        });
+        gather();
     }
 
-    /// Improving moves until a pass finds none.
-    void descend() {
-        for (bool is_better = true; is_better && !control_.should_stop();) {
-            is_better = false;
-            const std::int64_t before = state_.work();
-            for (Label i : proposals_) {
-                if (!moves_.flip(i, 1)) continue;
-                accept();
-                is_better = true;
-            }
-            const auto moves = static_cast<std::int64_t>(proposals_.size());
-            charge(state_.work() - before + kEntriesPerMove * moves);
-        }
+    /// All lanes go on from the best of their parts.
+    void gather() {
+        lanes_.run(1, [&](Annealer& lane, std::size_t) {
+            for (std::size_t k = 1; k < lanes_.size(); ++k) lane.merge(lanes_.lane(k).best());
+        });
+        climb_ = lanes_.lane(0).best();
+        share();
+        note();
     }
 
-    /// Takes over the parts of the current labeling that beat the best, then continues from it.
+    void share() {
+        for (std::size_t k = 0; k < lanes_.size(); ++k) lanes_.lane(k).adopt(climb_);
+    }
+
+    void note() {
+        if (climb_.value <= best_.value) return;
+        best_ = climb_;
+        if (report_) report_(best_.value);
+    }
+
+    /// Anneals where the climb differs from each of the pool.
     void recombine() {
-        const std::int64_t before = state_.work();
-        const std::vector<Label>& candidates = is_tracking_ ? since_best_ : all_labels_;
-        const auto parts = parts_.split(candidates, best_.labels, state_.labels());
-        for (const auto& part : parts) {
-            const Value value = state_.value();
-            for (Label i : part) state_.flip(i);
-            // Now the part is as in the best; the chain's version returns if it was better.
-            if (state_.value() < value) {
-                state_.roll_back();
-            } else {
-                state_.commit();
+        for (const Solution& other : pool_) {
+            for (int round = 0; round < kCoreRounds; ++round) {
+                if (control_.should_stop()) return;
+                const Value before = climb_.value;
+                lanes_.run(1, [&](Annealer& lane, std::size_t) { lane.merge(other); });
+                climb_ = lanes_.lane(0).best();
+                share();
+                std::vector<Label> core;
+                for (Label i : model_.proposals()) {
+                    if (climb_.labels[i] != other.labels[i]) core.push_back(i);
+                }
+                if (core.empty()) break;
+                lanes_.run(lanes_.size(), [&](Annealer& lane, std::size_t k) {
+                    Chain chain{
+                        kReheats[(k + static_cast<std::size_t>(round)) % kReheats.size()], kColdest,
+                        static_cast<std::int64_t>(kCoreTicks * static_cast<double>(core.size())),
+                        false};
+                    lane.run_window(core, chain);
+                });
+                gather();
+                if (climb_.value > before) ++recombined_;
             }
         }
-        const auto looked_at = static_cast<std::int64_t>(candidates.size());
-        if (state_.value() > best_.value) {
-            statistics.crossover_gain += state_.value() - best_.value;
-            keep();
-        }
-        // Every part that is no better was put back: the two labelings are equal now.
-        since_best_.clear();
-        is_tracking_ = true;
-        report_best();
-        charge(2 * (state_.work() - before) + looked_at);
     }
 
-    void charge(std::int64_t entries) { control_.spend(1 + entries / kEntriesPerTick); }
+    /// Keeps the best different ones.
+    void insert(const Solution& solution) {
+        for (const Solution& other : pool_) {
+            if (other.value == solution.value) return;
+        }
+        pool_.push_back(solution);
+        std::sort(pool_.begin(), pool_.end(),
+                  [](const Solution& a, const Solution& b) { return a.value > b.value; });
+        if (pool_.size() > kPoolSize) pool_.pop_back();
+    }
 
-    const LabelingProblem& problem_;
     const LocalSearchOptions& options_;
     RunControl& control_;
     const std::function<void(Value)>& report_;
     Random random_;
     SearchModel model_;
-    SearchState state_;
-    CompoundMoves moves_;
-    DifferenceParts parts_;
-    std::vector<Label> proposals_;  ///< labels that moves start from
-    std::vector<Label> fillers_;    ///< labels that only rules call for
-    std::vector<Label> all_labels_, window_;
-    std::vector<std::uint8_t> in_window_;
-    Solution best_;
-    Value reported_;
-    std::vector<Label> since_best_;  ///< flips from the best to the current labeling
-    bool is_tracking_ = true;        ///< since_best_ is complete
-    double scale_ = 1;
-    std::array<double, std::size_t{1} << kLogTableBits> log_table_{};
+    RegionSplitter splitter_;
+    SearchLanes lanes_;
+    const std::int64_t size_;
+    Solution best_, climb_;
+    std::vector<Solution> pool_;
+    std::int64_t climbs_ = 0, recombined_ = 0;
 };
+
+struct Switch {
+    const char* key;
+    bool LocalSearchOptions::*field;
+};
+
+constexpr std::array kSwitches{
+    Switch{"windows", &LocalSearchOptions::windows},
+    Switch{"adaptive", &LocalSearchOptions::adaptive},
+    Switch{"by-worth", &LocalSearchOptions::by_worth},
+    Switch{"restarts", &LocalSearchOptions::restarts},
+    Switch{"recombination", &LocalSearchOptions::recombination},
+};
+
+LocalSearchOptions search_options(const SolveOptions& options, std::string_view solver) {
+    require_known_extras(
+        options, solver,
+        {"first-chain", "lanes", "windows", "adaptive", "by-worth", "restarts", "recombination"});
+    LocalSearchOptions search;
+    search.seed = options.seed;
+    search.threads = options.threads;
+    search.lanes = static_cast<int>(extra_integer(options, "lanes", search.lanes, 1, 16));
+    search.first_chain = extra_integer(options, "first-chain", 0, 0, std::int64_t{1} << 40);
+    for (const Switch& s : kSwitches) {
+        const auto it = options.extra.find(s.key);
+        if (it == options.extra.end()) continue;
+        if (it->second != "on" && it->second != "off") {
+            throw InputError("option " + it->first + ": '" + it->second + "' is not on or off");
+        }
+        search.*s.field = it->second == "on";
+    }
+    return search;
+}
 
 class LocalSearchSolver final : public Solver {
 public:
     std::string name() const override { return "local-search"; }
     std::string description() const override {
-        return "simulated annealing over compound moves with partition crossover";
+        return "annealing over compound moves with partition crossover, restarts and recombination";
     }
     bool is_exact() const override { return false; }
     SolveResult solve(const LabelingProblem& problem, const SolveOptions& options) const override {
         require_valid_options(problem, options);
-        require_known_extras(options, name(), {"first-chain"});
+        const LocalSearchOptions search = search_options(options, name());
         // About ten seconds unless the caller limits either work or time.
         std::optional<std::int64_t> work;
         if (!options.time_limit) work = 100'000'000;
@@ -295,9 +291,6 @@ public:
         if (found.solution) {
             auto report = [&control](Value value) { control.report(value, std::nullopt); };
             report(found.solution->value);
-            LocalSearchOptions search;
-            search.seed = options.seed;
-            search.first_chain = extra_integer(options, "first-chain", 0, 0, std::int64_t{1} << 40);
             found.solution = improve_labeling(problem, rows, control, std::move(*found.solution),
                                               search, report, &statistics);
         }
@@ -307,6 +300,8 @@ public:
         result.statistics["accepted"] = static_cast<double>(statistics.accepted);
         result.statistics["chains"] = static_cast<double>(statistics.chains);
         result.statistics["windows"] = static_cast<double>(statistics.windows);
+        result.statistics["climbs"] = static_cast<double>(statistics.climbs);
+        result.statistics["recombined"] = static_cast<double>(statistics.recombined);
         return result;
     }
 };
@@ -317,10 +312,10 @@ Solution improve_labeling(const LabelingProblem& problem, const RowSystem& rows,
                           RunControl& control, Solution start, const LocalSearchOptions& options,
                           const std::function<void(Value)>& report,
                           LocalSearchStatistics* statistics) {
-    Annealer annealer(problem, rows, control, std::move(start), options, report);
-    annealer.run();
-    if (statistics != nullptr) *statistics = annealer.statistics;
-    return annealer.take_best();
+    LocalSearch search(problem, rows, control, std::move(start), options, report);
+    search.run();
+    if (statistics != nullptr) *statistics = search.statistics();
+    return search.take_best();
 }
 
 std::shared_ptr<const Solver> make_local_search_solver() {
