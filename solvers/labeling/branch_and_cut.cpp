@@ -42,7 +42,7 @@ public:
           rows_(problem),
           propagator_(problem, rows_),
           is_consistent_(propagator_.propagate_all()),
-          graph_(problem, propagator_),
+          graph_(problem, propagator_, &control),
           relaxation_(problem, options.lp),
           state_(problem, propagator_, relaxation_),
           separator_(problem, graph_),
@@ -57,7 +57,9 @@ public:
     }
 
     TreeResult run() {
-        if (is_consistent_ && fix_impossible()) {
+        if (is_consistent_ && control_.is_over()) {
+            open_bound_ = sum_of_gains(problem_);
+        } else if (is_consistent_ && fix_impossible()) {
             for (Cut& cut : initial_clique_cuts(problem_, graph_)) relaxation_.add(std::move(cut));
             charge(graph_.work());
             solve_root();

@@ -7,6 +7,7 @@
 #include "labeling/greedy.h"
 #include "labeling/local_search.h"
 #include "labeling/rows.h"
+#include "labeling/subproblem.h"
 
 namespace labeling {
 namespace {
@@ -22,6 +23,11 @@ TreeResult by_tree(const LabelingProblem& problem, const std::optional<Solution>
     if (statistics != nullptr) statistics->nodes += result.nodes;
     if (!result.solution) result.solution = start;
     return result;
+}
+
+/// For a run that is over: even the first bound would take too long on large problems.
+TreeResult unproven(const LabelingProblem& problem, const std::optional<Solution>& start) {
+    return {start, sum_of_gains(problem), 0};
 }
 
 }  // namespace
@@ -52,6 +58,7 @@ PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t
 TreeResult prove_part(const LabelingProblem& problem, const std::optional<Solution>& start,
                       RunControl& control, const PartSearchOptions& options,
                       BranchAndCutStatistics* statistics) {
+    if (control.is_over()) return unproven(problem, start);
     const std::size_t columns =
         static_cast<std::size_t>(problem.label_count()) + problem.bonus_count();
     const Label tree_size = options.techniques.tree_size;

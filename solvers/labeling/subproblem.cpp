@@ -133,4 +133,11 @@ Value decided_value(const LabelingProblem& problem, std::span<const std::int8_t>
     return value;
 }
 
+Value sum_of_gains(const LabelingProblem& problem) {
+    Value sum = 0;
+    for (Value w : problem.weights()) sum += std::max(Value{0}, w);
+    for (const Bonus& b : problem.bonuses()) sum += b.value;
+    return sum;
+}
+
 }  // namespace labeling

@@ -49,4 +49,7 @@ private:
 /// Value of what is decided: weights of labels that are on and bonuses between them.
 Value decided_value(const LabelingProblem& problem, std::span<const std::int8_t> values);
 
+/// Sum of the positive weights and all bonuses: no labeling is worth more.
+Value sum_of_gains(const LabelingProblem& problem);
+
 }  // namespace labeling

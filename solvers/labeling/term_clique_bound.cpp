@@ -12,10 +12,12 @@ namespace {
 
 constexpr Label kMatrixLimit = 4096;
 constexpr std::size_t kCliqueTrials = 200;
+constexpr std::size_t kTermsPerLook = 1024;
 
 }  // namespace
 
-TermCliqueBound::TermCliqueBound(const LabelingProblem& problem) : problem_(problem) {
+TermCliqueBound::TermCliqueBound(const LabelingProblem& problem, RunControl& control)
+    : problem_(problem), control_(control) {
     if (problem.label_count() > kMatrixLimit) return;
     words_per_row_ = (static_cast<std::size_t>(problem.label_count()) + 63) / 64;
     matrix_.assign(words_per_row_ * static_cast<std::size_t>(problem.label_count()), 0);
@@ -65,8 +67,14 @@ Value TermCliqueBound::operator()(const Propagator& propagator, Value enough) {
         if (a.value != b.value) return a.value > b.value;
         return a.first != b.first ? a.first < b.first : a.second < b.second;
     });
-    std::size_t used = 0;
+    std::size_t used = 0, placed = 0;
     for (const TermNode& t : terms_) {
+        // On large problems this takes seconds; without a place a term counts in full.
+        if (++placed % kTermsPerLook == 0) control_.check();
+        if (placed >= kTermsPerLook && control_.is_over()) {
+            bound += t.value;
+            continue;
+        }
         bool is_placed = false;
         // Late cliques hold terms of similar size and are the likelier ones to be open.
         for (std::size_t k = 0; k < std::min(used, kCliqueTrials) && !is_placed; ++k) {

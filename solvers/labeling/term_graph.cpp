@@ -9,6 +9,7 @@ namespace labeling {
 namespace {
 
 constexpr std::int32_t kMatrixLimit = 24000;
+constexpr TermGraph::Node kProbesPerLook = 256;
 
 std::uint64_t edge(TermGraph::Node u, TermGraph::Node v) {
     return (static_cast<std::uint64_t>(u) << 32) | static_cast<std::uint32_t>(v);
@@ -16,7 +17,7 @@ std::uint64_t edge(TermGraph::Node u, TermGraph::Node v) {
 
 }  // namespace
 
-TermGraph::TermGraph(const LabelingProblem& problem, Propagator& propagator)
+TermGraph::TermGraph(const LabelingProblem& problem, Propagator& propagator, RunControl* control)
     : label_count_(problem.label_count()),
       bonus_count_(static_cast<std::int32_t>(problem.bonus_count())) {
     bonus_begin_.assign(static_cast<std::size_t>(label_count_) + 1, 0);
@@ -32,29 +33,50 @@ TermGraph::TermGraph(const LabelingProblem& problem, Propagator& propagator)
         bonuses_at_[next[problem.bonuses()[k].second]++] = k;
     }
     std::vector<std::uint64_t> edges;
-    for (Node v = 0; v < node_count(); ++v) probe(problem, propagator, v, edges);
-    const std::size_t directed = edges.size();
-    for (std::size_t k = 0; k < directed; ++k) {
-        edges.push_back(
-            edge(static_cast<Node>(edges[k] & 0xffffffffU), static_cast<Node>(edges[k] >> 32)));
+    for (Node v = 0; v < node_count(); ++v) {
+        probe(problem, propagator, v, edges);
+        if (control == nullptr || v % kProbesPerLook != 0) continue;
+        control->check();
+        if (control->is_over()) break;
     }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    begin_.assign(static_cast<std::size_t>(node_count()) + 1, 0);
-    adjacency_.reserve(edges.size());
-    for (std::uint64_t e : edges) {
-        ++begin_[(e >> 32) + 1];
-        adjacency_.push_back(static_cast<Node>(e & 0xffffffffU));
-    }
-    for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
-    work_ += 8 * static_cast<std::int64_t>(edges.size());
+    build_adjacency(edges);
+    work_ += 8 * static_cast<std::int64_t>(adjacency_.size());
     if (node_count() > kMatrixLimit) return;
     words_per_row_ = (static_cast<std::size_t>(node_count()) + 63) / 64;
     matrix_.assign(words_per_row_ * static_cast<std::size_t>(node_count()), 0);
-    for (std::uint64_t e : edges) {
-        const std::uint64_t v = e & 0xffffffffU;
-        matrix_[(e >> 32) * words_per_row_ + v / 64] |= std::uint64_t{1} << (v % 64);
+    for (Node u = 0; u < node_count(); ++u) {
+        for (Node v : neighbours(u)) {
+            matrix_[static_cast<std::size_t>(u) * words_per_row_ + v / 64] |= std::uint64_t{1}
+                                                                              << (v % 64);
+        }
     }
+}
+
+/// Both directions of each edge, ascending at each node, none twice.
+void TermGraph::build_adjacency(std::span<const std::uint64_t> edges) {
+    const auto nodes = static_cast<std::size_t>(node_count());
+    begin_.assign(nodes + 1, 0);
+    for (std::uint64_t e : edges) {
+        ++begin_[(e >> 32) + 1];
+        ++begin_[(e & 0xffffffffU) + 1];
+    }
+    for (std::size_t v = 0; v < nodes; ++v) begin_[v + 1] += begin_[v];
+    adjacency_.resize(begin_.back());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::uint64_t e : edges) {
+        adjacency_[next[e >> 32]++] = static_cast<Node>(e & 0xffffffffU);
+        adjacency_[next[e & 0xffffffffU]++] = static_cast<Node>(e >> 32);
+    }
+    auto end = adjacency_.begin();
+    for (std::size_t v = 0; v < nodes; ++v) {
+        const auto first = adjacency_.begin() + static_cast<std::ptrdiff_t>(begin_[v]);
+        const auto last = adjacency_.begin() + static_cast<std::ptrdiff_t>(begin_[v + 1]);
+        std::sort(first, last);
+        begin_[v] = static_cast<std::size_t>(end - adjacency_.begin());
+        end = std::move(first, std::unique(first, last), end);
+    }
+    begin_[nodes] = static_cast<std::size_t>(end - adjacency_.begin());
+    adjacency_.erase(end, adjacency_.end());
 }
 
 void TermGraph::probe(const LabelingProblem& problem, Propagator& propagator, Node v,

@@ -6,6 +6,7 @@
 
 #include "labeling/problem.h"
 #include "labeling/propagation.h"
+#include "labeling/run_control.h"
 
 namespace labeling {
 
@@ -18,8 +19,10 @@ public:
     using Node = std::int32_t;
 
     /// `propagator` must be propagated; it is probed and restored. Labels that are decided have no
-    /// edges. Nodes that probing refutes are listed in impossible().
-    TermGraph(const LabelingProblem& problem, Propagator& propagator);
+    /// edges. Nodes that probing refutes are listed in impossible(). Edges are missing when
+    /// `control` ended the run meanwhile.
+    TermGraph(const LabelingProblem& problem, Propagator& propagator,
+              RunControl* control = nullptr);
 
     Node node_count() const { return 2 * label_count_ + bonus_count_; }
     Label label_count() const { return label_count_; }
@@ -45,6 +48,8 @@ public:
 private:
     void probe(const LabelingProblem& problem, Propagator& propagator, Node v,
                std::vector<std::uint64_t>& edges);
+
+    void build_adjacency(std::span<const std::uint64_t> edges);
 
     Label label_count_ = 0;
     std::int32_t bonus_count_ = 0;

@@ -30,7 +30,7 @@ public:
           control_(control),
           rows_(problem),
           propagator_(problem, rows_),
-          bound_(problem),
+          bound_(problem, control),
           decomposer_(problem, rows_) {}
 
     TreeResult run() {
@@ -143,7 +143,7 @@ private:
         parts_bound_ = decided;
         for (const auto& part : parts) {
             subs.push_back(decomposer_.extract(propagator_, part));
-            bounds.push_back(part_bound(subs.back().problem));
+            bounds.push_back(sum_of_gains(subs.back().problem));
             parts_bound_ += bounds.back();
         }
         if (charge(kTicksPerPart * static_cast<std::int64_t>(parts.size()))) return false;
@@ -176,13 +176,6 @@ private:
         best_ = parts_bound_;
         result_.solution = std::move(solution);
         return true;
-    }
-
-    static Value part_bound(const LabelingProblem& part) {
-        Value bound = 0;
-        for (Value w : part.weights()) bound += std::max(Value{0}, w);
-        for (const Bonus& b : part.bonuses()) bound += b.value;
-        return bound;
     }
 
     void open(Value bound) { open_bound_ = std::max(open_bound_, bound); }
