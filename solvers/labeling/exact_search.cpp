@@ -112,6 +112,7 @@ private:
             finish(original_, exact_.name, control_, std::move(solution), bound + offset_);
         add_reductions(result);
         result.statistics["parts"] = static_cast<double>(parts_.size());
+        result.statistics["narrow-parts"] = static_cast<double>(treewidth_.solved);
         result.statistics["nodes"] = static_cast<double>(statistics_.nodes);
         result.statistics["lp-iterations"] = static_cast<double>(statistics_.lp_iterations);
         result.statistics["clique-cuts"] = static_cast<double>(statistics_.clique_cuts);
@@ -156,6 +157,7 @@ private:
         search.lp = exact_.lp;
         search.seed = options_.seed;
         search.techniques = techniques_;
+        search.treewidth = &treewidth_;
         search.report = [&part, this](std::optional<Value> value, std::optional<Value> bound) {
             if (value) part.value = std::max(part.value, *value);
             if (bound) part.bound = std::min(part.bound, *bound);
@@ -173,6 +175,7 @@ private:
         PartStart found = start_part(part.sub.problem, labels, control_, part_options(part));
         part.solution = std::move(found.solution);
         if (part.solution) part.value = part.solution->value;
+        if (found.is_optimal) part.bound = part.value;
         return !found.is_infeasible;
     }
 
@@ -226,6 +229,7 @@ private:
     std::vector<std::uint8_t> labels_;
     Value decided_ = 0, offset_ = 0;
     BranchAndCutStatistics statistics_;
+    TreewidthStatistics treewidth_;
 };
 
 class ExactSolver final : public Solver {

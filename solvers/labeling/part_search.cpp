@@ -1,7 +1,7 @@
-// Which technique for which size. A few labels: the depth-first tree at once. Up to some dozens:
-// the tree with a small allowance first, because no LP beats it there. More: local search, then
-// branch-and-cut, which may hand back what is left of the problem after fixing; that comes through
-// here again.
+// Which technique for which size. Narrow problems: dynamic programming. A few labels: the
+// depth-first tree at once. Up to some dozens: the tree with a small allowance first, because no LP
+// beats it there. More: local search, then branch-and-cut, which may hand back what is left of the
+// problem after fixing; that comes through here again.
 #include "labeling/part_search.h"
 
 #include "labeling/greedy.h"
@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::int64_t kSmallTreeTicks = 20000;
 constexpr std::int64_t kSearchTicksPerLabel = 1000;
+/// Dynamic programming may take so long: branch-and-cut seldom takes less.
+constexpr std::int64_t kWidthTicksPerLabel = 4000;
 /// Beyond this many columns the first LP alone would take minutes.
 constexpr std::size_t kMostColumns = 100000;
 
@@ -30,16 +32,28 @@ TreeResult unproven(const LabelingProblem& problem, const std::optional<Solution
     return {start, sum_of_gains(problem), 0};
 }
 
+/// nullopt: too wide.
+std::optional<TreeResult> by_width(const LabelingProblem& problem, RunControl& control,
+                                   const PartSearchOptions& options) {
+    if (!options.techniques.treewidth) return std::nullopt;
+    TreewidthOptions width;
+    width.most_ticks = kWidthTicksPerLabel * problem.label_count();
+    return treewidth_search(problem, control, width, options.treewidth);
+}
+
 }  // namespace
 
 PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t> labels,
                      RunControl& control, const PartSearchOptions& options) {
+    if (const auto narrow = by_width(problem, control, options)) {
+        return {narrow->solution, !narrow->solution, narrow->solution.has_value()};
+    }
     if (!options.techniques.heuristics) return {};
     const RowSystem rows(problem);
     GreedyOptions greedy;
     greedy.start = labels;
     GreedyResult found = greedy_labeling(problem, rows, control, greedy);
-    PartStart start{std::move(found.solution), found.is_infeasible};
+    PartStart start{std::move(found.solution), found.is_infeasible, false};
     if (!start.solution) return start;
     if (options.report) options.report(start.solution->value, std::nullopt);
     if (problem.label_count() <= options.techniques.tree_size || control.should_stop())
@@ -80,8 +94,11 @@ TreeResult prove_part(const LabelingProblem& problem, const std::optional<Soluti
     cut.solve_rest = [&](const LabelingProblem& rest, const std::optional<Solution>& rest_start) {
         PartSearchOptions quiet = options;
         quiet.report = {};
+        if (auto narrow = by_width(rest, control, quiet)) return std::move(*narrow);
         if (rest_start) return prove_part(rest, rest_start, control, quiet, statistics);
+        quiet.techniques.treewidth = false;  // as tried already
         const PartStart fresh = start_part(rest, {}, control, quiet);
+        quiet.techniques.treewidth = options.techniques.treewidth;
         if (fresh.is_infeasible) return TreeResult{};
         return prove_part(rest, fresh.solution, control, quiet, statistics);
     };

@@ -10,6 +10,7 @@
 #include "labeling/run_control.h"
 #include "labeling/techniques.h"
 #include "labeling/tree_search.h"
+#include "labeling/treewidth_search.h"
 
 namespace labeling {
 
@@ -17,6 +18,7 @@ struct PartSearchOptions {
     LpFactory lp;  ///< empty: clique bounds alone
     std::uint64_t seed = 1;
     Techniques techniques;
+    TreewidthStatistics* treewidth = nullptr;  ///< counts on; may be null
     /// Better values and bounds of the part as they are found; may be empty.
     std::function<void(std::optional<Value>, std::optional<Value>)> report;
 };
@@ -24,9 +26,11 @@ struct PartSearchOptions {
 struct PartStart {
     std::optional<Solution> solution;
     bool is_infeasible = false;  ///< proven
+    bool is_optimal = false;     ///< proven: nothing is left to do
 };
 
-/// Greedy, then local search as long as the size justifies; nothing without heuristics. `labels`:
+/// The optimum, if dynamic programming takes no longer than a proof by branch-and-cut usually would.
+/// Else greedy, then local search as long as the size justifies; nothing without heuristics. `labels`:
 /// one entry per label, 1, 0 or -1 (unknown), or empty.
 PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t> labels,
                      RunControl& control, const PartSearchOptions& options);

@@ -16,6 +16,7 @@ struct Switch {
 constexpr std::array kSwitches{
     Switch{"heuristics", &Techniques::heuristics},
     Switch{"reductions", &Techniques::reductions},
+    Switch{"treewidth", &Techniques::treewidth},
     Switch{"clique-cuts", &Techniques::clique_cuts},
     Switch{"triple-cuts", &Techniques::triple_cuts},
     Switch{"gomory-cuts", &Techniques::gomory_cuts},
@@ -28,7 +29,7 @@ constexpr std::array kSwitches{
 
 Techniques techniques_of(const SolveOptions& options, std::string_view solver) {
     require_known_extras(options, solver,
-                         {"tree-size", "heuristics", "reductions", "clique-cuts", "triple-cuts", "gomory-cuts",
+                         {"tree-size", "heuristics", "reductions", "treewidth", "clique-cuts", "triple-cuts", "gomory-cuts",
                           "fixing", "restarts", "strong-branching"});
     Techniques techniques;
     for (const Switch& s : kSwitches) {

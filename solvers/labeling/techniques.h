@@ -16,6 +16,7 @@ struct Techniques {
     /// Greedy and local search before and inside of branch-and-cut; a warm start needs them.
     bool heuristics = true;
     bool reductions = true;        ///< reductions.h, before anything else
+    bool treewidth = true;         ///< treewidth_search.h, for narrow parts
     bool clique_cuts = true;       ///< separated ones; those that make the model complete stay
     bool triple_cuts = true;       ///< triple_cuts.h
     bool gomory_cuts = true;       ///< gomory_cuts.h

@@ -53,7 +53,8 @@ struct Case {
 class BranchAndCut : public testing::TestWithParam<Case> {
 protected:
     Extras extras() const {
-        Extras all{{"tree-size", "0"}, {"heuristics", "off"}, {"reductions", "off"}};
+        Extras all{
+            {"tree-size", "0"}, {"heuristics", "off"}, {"reductions", "off"}, {"treewidth", "off"}};
         for (const auto& [key, value] : GetParam().extras) all[key] = value;
         return all;
     }
@@ -106,6 +107,7 @@ const Case kCases[] = {
     {"everything", {}},
     {"with_heuristics", {{"heuristics", "on"}}},
     {"with_reductions", {{"reductions", "on"}}},
+    {"with_treewidth", {{"treewidth", "on"}}},
     {"without_cliques", {{"clique-cuts", "off"}}},
     {"without_triples", {{"triple-cuts", "off"}}},
     {"without_gomory", {{"gomory-cuts", "off"}}},
@@ -125,6 +127,7 @@ double total(const std::string& key, Extras extras) {
     extras["tree-size"] = "0";
     extras["heuristics"] = "off";
     extras["reductions"] = "off";
+    extras["treewidth"] = "off";
     options.extra = extras;
     double sum = 0;
     for (int k = 0; k < 600; ++k) {

@@ -1,0 +1,116 @@
+// Elimination orders by the two classical greedy rules, minimum degree and minimum fill (see
+// Bodlaender & Koster 2010). The labels of a rule are joined pairwise, so that a rule is complete
+// in the neighbourhood of the first of them to go. Fill is counted again for the neighbours of an
+// eliminated label alone, which may leave old counts two steps away.
+#include "labeling/elimination_order.h"
+
+#include <algorithm>
+
+#include "labeling/label_heap.h"
+
+namespace labeling {
+namespace {
+
+constexpr std::int64_t kEntriesPerTick = 16;
+constexpr std::size_t kLongestRow = 40;
+
+class Elimination {
+public:
+    Elimination(const LabelingProblem& problem, RunControl& control, EliminationRule rule)
+        : control_(control),
+          rule_(rule),
+          heap_(problem.label_count()),
+          graph_(problem.label_count()) {}
+
+    /// False: a rule is too long.
+    bool join(const LabelingProblem& problem, const RowSystem& rows) {
+        const Label n = problem.label_count();
+        for (Label i = 0; i < n; ++i) {
+            const auto conflicts = problem.conflicts_of(i);
+            graph_[i].assign(conflicts.begin(), conflicts.end());
+            for (const auto& b : problem.bonuses_of(i)) graph_[i].push_back(b.label);
+        }
+        for (std::int32_t row = 0; row < rows.row_count(); ++row) {
+            const auto terms = rows.terms(row);
+            if (terms.size() > kLongestRow) return false;
+            for (const Term& t : terms) {
+                for (const Term& other : terms) {
+                    if (other.label != t.label) graph_[t.label].push_back(other.label);
+                }
+            }
+        }
+        for (auto& neighbours : graph_) {
+            std::sort(neighbours.begin(), neighbours.end());
+            neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+            work_ += 4 * static_cast<std::int64_t>(neighbours.size());
+        }
+        for (Label i = 0; i < n; ++i) heap_.set(i, score(i));
+        return true;
+    }
+
+    std::optional<EliminationOrder> run() {
+        EliminationOrder result;
+        result.neighbours.resize(graph_.size());
+        std::vector<Label> joined;
+        while (!heap_.is_empty()) {
+            const Label i = heap_.top();
+            heap_.remove(i);
+            auto neighbours = std::move(graph_[i]);
+            if (neighbours.size() > EliminationOrder::kMostNeighbours) return std::nullopt;
+            for (Label j : neighbours) {
+                auto& its = graph_[j];
+                work_ += static_cast<std::int64_t>(its.size() + neighbours.size());
+                joined.clear();
+                std::set_union(its.begin(), its.end(), neighbours.begin(), neighbours.end(),
+                               std::back_inserter(joined));
+                std::erase_if(joined, [i, j](Label k) { return k == i || k == j; });
+                its = joined;
+            }
+            for (Label j : neighbours) heap_.set(j, score(j));
+            result.order.push_back(i);
+            result.neighbours[i] = std::move(neighbours);
+            if (work_ < kEntriesPerTick) continue;
+            if (control_.spend(work_ / kEntriesPerTick)) return std::nullopt;
+            work_ = 0;
+        }
+        return result;
+    }
+
+private:
+    double score(Label i) {
+        const auto& neighbours = graph_[i];
+        const auto degree = static_cast<double>(neighbours.size());
+        if (rule_ == EliminationRule::Degree) return -degree;
+        // So many neighbours are not eliminated before others have gone, which counts them again.
+        if (neighbours.size() > EliminationOrder::kMostNeighbours) return -degree * degree;
+        double present = 0;
+        for (Label j : neighbours) {
+            const auto& its = graph_[j];
+            std::size_t k = 0;
+            for (Label other : neighbours) {
+                while (k < its.size() && its[k] < other) ++k;
+                if (k < its.size() && its[k] == other) ++present;
+            }
+            work_ += static_cast<std::int64_t>(its.size() + neighbours.size());
+        }
+        return present / 2 - degree * (degree - 1) / 2;
+    }
+
+    RunControl& control_;
+    const EliminationRule rule_;
+    LabelHeap heap_;
+    std::vector<std::vector<Label>> graph_;  ///< of the labels that are left
+    std::int64_t work_ = 0;
+};
+
+}  // namespace
+
+std::optional<EliminationOrder> elimination_order(const LabelingProblem& problem,
+                                                  const RowSystem& rows, RunControl& control,
+                                                  EliminationRule rule) {
+    Elimination elimination(problem, control, rule);
+    if (!elimination.join(problem, rows)) return std::nullopt;
+    return elimination.run();
+}
+
+}  // namespace labeling
