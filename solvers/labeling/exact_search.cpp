@@ -204,8 +204,10 @@ private:
 
     /// False: the part has no solution.
     bool prove(Part& part) {
+        PartSearchOptions search = part_options(part);
+        search.is_wide = true;  // start() would have solved it
         TreeResult tree =
-            prove_part(part.sub.problem, part.solution, control_, part_options(part), &statistics_);
+            prove_part(part.sub.problem, part.solution, control_, search, &statistics_);
         if (tree.solution) part.solution = std::move(tree.solution);
         if (part.solution) part.value = part.solution->value;
         if (tree.bound == kNoValue) return false;

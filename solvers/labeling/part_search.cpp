@@ -35,7 +35,7 @@ TreeResult unproven(const LabelingProblem& problem, const std::optional<Solution
 /// nullopt: too wide.
 std::optional<TreeResult> by_width(const LabelingProblem& problem, RunControl& control,
                                    const PartSearchOptions& options) {
-    if (!options.techniques.treewidth) return std::nullopt;
+    if (options.is_wide || !options.techniques.treewidth) return std::nullopt;
     TreewidthOptions width;
     width.most_ticks = kWidthTicksPerLabel * problem.label_count();
     return treewidth_search(problem, control, width, options.treewidth);
@@ -73,6 +73,7 @@ TreeResult prove_part(const LabelingProblem& problem, const std::optional<Soluti
                       RunControl& control, const PartSearchOptions& options,
                       BranchAndCutStatistics* statistics) {
     if (control.is_over()) return unproven(problem, start);
+    if (auto narrow = by_width(problem, control, options)) return std::move(*narrow);
     const std::size_t columns =
         static_cast<std::size_t>(problem.label_count()) + problem.bonus_count();
     const Label tree_size = options.techniques.tree_size;
@@ -94,12 +95,12 @@ TreeResult prove_part(const LabelingProblem& problem, const std::optional<Soluti
     cut.solve_rest = [&](const LabelingProblem& rest, const std::optional<Solution>& rest_start) {
         PartSearchOptions quiet = options;
         quiet.report = {};
-        if (auto narrow = by_width(rest, control, quiet)) return std::move(*narrow);
+        quiet.is_wide = false;
         if (rest_start) return prove_part(rest, rest_start, control, quiet, statistics);
-        quiet.techniques.treewidth = false;  // as tried already
         const PartStart fresh = start_part(rest, {}, control, quiet);
-        quiet.techniques.treewidth = options.techniques.treewidth;
         if (fresh.is_infeasible) return TreeResult{};
+        if (fresh.is_optimal) return TreeResult{fresh.solution, fresh.solution->value, 0};
+        quiet.is_wide = true;
         return prove_part(rest, fresh.solution, control, quiet, statistics);
     };
     return branch_and_cut(problem, best, kNoValue, control, cut, statistics);

@@ -18,6 +18,7 @@ struct PartSearchOptions {
     LpFactory lp;  ///< empty: clique bounds alone
     std::uint64_t seed = 1;
     Techniques techniques;
+    bool is_wide = false;  ///< known from start_part: dynamic programming takes too long
     TreewidthStatistics* treewidth = nullptr;  ///< counts on; may be null
     /// Better values and bounds of the part as they are found; may be empty.
     std::function<void(std::optional<Value>, std::optional<Value>)> report;
@@ -29,15 +30,15 @@ struct PartStart {
     bool is_optimal = false;     ///< proven: nothing is left to do
 };
 
-/// The optimum, if dynamic programming takes no longer than a proof by branch-and-cut usually would.
-/// Else greedy, then local search as long as the size justifies; nothing without heuristics. `labels`:
-/// one entry per label, 1, 0 or -1 (unknown), or empty.
+/// The optimum, if dynamic programming takes no longer than a proof by branch-and-cut usually
+/// would. Else greedy, then local search as long as the size justifies; nothing without heuristics.
+/// `labels`: one entry per label, 1, 0 or -1 (unknown), or empty.
 PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t> labels,
                      RunControl& control, const PartSearchOptions& options);
 
-/// Solves one connected problem as far as `control` allows: the depth-first tree for few labels,
-/// branch-and-cut for more. The solution is the best found, `start` included; bound == kNoValue
-/// proves that there is none.
+/// Solves one connected problem as far as `control` allows: as start_part if narrow, the
+/// depth-first tree for few labels, branch-and-cut for more. The solution is the best found,
+/// `start` included; bound == kNoValue proves that there is none.
 TreeResult prove_part(const LabelingProblem& problem, const std::optional<Solution>& start,
                       RunControl& control, const PartSearchOptions& options,
                       BranchAndCutStatistics* statistics);
