@@ -1,147 +1,139 @@
 // labeling_solvers FILE|FOLDER... [--solvers A,B] [--time SECONDS] [--work TICKS] [--seed N]
-//                  [--set KEY=VALUE]... [--permute N]
+//                  [--set KEY=VALUE]... [--permute N | --permutations N]
 // Solves labeling problems with several solvers and prints a Markdown table: value, bound, gap,
 // processor seconds (children included), wall seconds, those by an external solver's clock, nodes,
-// and when the last better value came.
-// --permute renames the labels (N = 0: as they are), to see how much is luck.
-#include <sys/resource.h>
-
+// and when the last better value came. A solver may be followed by extra options of its own, as in
+// highs:rows=paper. --permute renames labels and rules (N = 0: as they are), to see how much is
+// luck.
+// --permutations prints another table: for every problem the median seconds to the proof over N
+// renamings, one solver after the other on each. Without a proof the time limit counts; no time is
+// less than 0.05 s; a solver that fails throughout is left out; of an external solver the smaller
+// counts of its own clock and the processor seconds. Then the geometric means of the first solver's
+// speed relative to each other one and to the best other one per problem, over all problems and
+// over those where that one needs over 1 s.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <numeric>
-#include <random>
+#include <limits>
+#include <map>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "labeling/errors.h"
 #include "labeling/formats.h"
-#include "labeling/solver.h"
-#ifdef LABELING_WITH_MIP
-#include "labeling_mip/mip_solvers.h"
-#endif
+#include "labeling_runs.h"
+#include "tools/argument_words.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-using labeling::Label;
 using labeling::LabelingProblem;
+using labeling::SolveResult;
+using labeling::SolveStatus;
+
+struct Variant {
+    std::string text;
+    std::string solver;
+    std::map<std::string, std::string> extra;
+};
 
 struct Arguments {
     std::vector<fs::path> files;
-    std::vector<std::string> solvers{"auto"};
+    std::vector<Variant> variants;
     labeling::SolveOptions options;
     std::uint64_t permutation = 0;
+    int permutations = 0;
 };
 
-std::vector<std::string> split(const std::string& text) {
-    std::vector<std::string> parts;
-    for (std::size_t from = 0; from <= text.size();) {
-        const std::size_t to = std::min(text.find(',', from), text.size());
-        parts.push_back(text.substr(from, to - from));
-        from = to + 1;
+Variant parse_variant(const std::string& text) {
+    const std::size_t end = std::min(text.find(':'), text.size());
+    Variant variant{text, text.substr(0, end), {}};
+    for (std::size_t from = end; from < text.size();) {
+        const std::size_t to = std::min(text.find(':', from + 1), text.size());
+        const std::string pair = text.substr(from + 1, to - from - 1);
+        const std::size_t at = pair.find('=');
+        if (at == std::string::npos) {
+            throw labeling::InputError("'" + pair + "' is not KEY=VALUE");
+        }
+        variant.extra[pair.substr(0, at)] = pair.substr(at + 1);
+        from = to;
     }
-    return parts;
-}
-
-void add_files(const fs::path& path, std::vector<fs::path>& files) {
-    if (!fs::is_directory(path)) {
-        files.push_back(path);
-        return;
-    }
-    for (const auto& entry : fs::directory_iterator(path)) {
-        if (entry.path().string().find(".lab") != std::string::npos) files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
+    return variant;
 }
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    for (int k = 1; k < argc; ++k) {
-        const std::string_view word = argv[k];
-        auto next = [&]() -> std::string {
-            if (k + 1 >= argc) throw labeling::InputError(std::string(word) + " needs a value");
-            return argv[++k];
-        };
-        if (word == "--solvers") {
-            arguments.solvers = split(next());
-        } else if (word == "--time") {
-            arguments.options.time_limit = std::chrono::duration<double>(std::stod(next()));
-        } else if (word == "--work") {
-            arguments.options.work_limit = static_cast<std::int64_t>(std::stod(next()));
-        } else if (word == "--seed") {
-            arguments.options.seed = std::stoull(next());
-        } else if (word == "--permute") {
-            arguments.permutation = std::stoull(next());
-        } else if (word == "--set") {
-            const std::string pair = next();
-            const std::size_t at = pair.find('=');
-            if (at == std::string::npos) throw labeling::InputError("--set needs KEY=VALUE");
-            arguments.options.extra[pair.substr(0, at)] = pair.substr(at + 1);
+    std::vector<std::string> solvers{"auto"};
+    labeling::ArgumentWords words(argc, argv);
+    while (words.next()) {
+        if (words.is("--solvers")) {
+            solvers = words.list();
+        } else if (words.is("--time")) {
+            arguments.options.time_limit = std::chrono::duration<double>(words.real());
+        } else if (words.is("--work")) {
+            arguments.options.work_limit = words.integer();
+        } else if (words.is("--seed")) {
+            arguments.options.seed = words.seed();
+        } else if (words.is("--permute")) {
+            arguments.permutation = words.seed();
+        } else if (words.is("--permutations")) {
+            arguments.permutations = static_cast<int>(words.integer());
+        } else if (words.is("--set")) {
+            const auto [key, value] = words.key_and_value();
+            arguments.options.extra[key] = value;
+        } else if (!words.is_option()) {
+            const auto files = labeling_runs::problem_files(words.word());
+            arguments.files.insert(arguments.files.end(), files.begin(), files.end());
         } else {
-            add_files(fs::path(word), arguments.files);
+            words.unknown();
         }
     }
+    for (const std::string& text : solvers) arguments.variants.push_back(parse_variant(text));
     if (arguments.files.empty()) throw labeling::InputError("no problem given");
+    if (arguments.permutations > 0 && !arguments.options.time_limit) {
+        throw labeling::InputError("--permutations needs --time");
+    }
     return arguments;
 }
 
-LabelingProblem renamed(const LabelingProblem& problem, std::uint64_t seed) {
-    std::vector<Label> order(problem.label_count());
-    std::iota(order.begin(), order.end(), 0);
-    std::mt19937_64 engine(seed);
-    for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[engine() % k]);
-    labeling::ProblemBuilder builder;
-    std::vector<labeling::Value> weights(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        weights[order[i]] = problem.weight(static_cast<Label>(i));
-    }
-    for (labeling::Value w : weights) builder.add_label(w);
-    for (const auto& c : problem.conflicts()) builder.add_conflict(order[c.first], order[c.second]);
-    for (const auto& b : problem.bonuses()) {
-        builder.add_bonus(order[b.first], order[b.second], b.value);
-    }
-    std::vector<labeling::Rule> rules(problem.rules().begin(), problem.rules().end());
-    for (std::size_t k = rules.size(); k > 1; --k) std::swap(rules[k - 1], rules[engine() % k]);
-    for (labeling::Rule& rule : rules) {
-        for (labeling::Term& t : rule.terms) t.label = order[t.label];
-        builder.add_rule(std::move(rule));
-    }
-    builder.set_units_per_one(problem.units_per_one());
-    return builder.build();
+struct Run {
+    SolveResult result;
+    double processor_seconds = 0;
+};
+
+Run solve(const LabelingProblem& problem, const Variant& variant, labeling::SolveOptions options) {
+    static const labeling::SolverRegistry solvers = labeling_runs::every_solver();
+    for (const auto& [key, value] : variant.extra) options.extra[key] = value;
+    const double before = labeling_runs::processor_seconds();
+    Run run;
+    run.result = solvers.find(variant.solver)->solve(problem, options);
+    run.processor_seconds = labeling_runs::processor_seconds() - before;
+    return run;
 }
 
-double processor_seconds() {
-    double seconds = 0;
-    for (int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
-        rusage usage{};
-        getrusage(who, &usage);
-        seconds += static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-                   1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+// ---- one row a run --------------------------------------------------------------------------
+
+void print_value(const std::optional<double>& value) {
+    if (value) {
+        std::printf(" %.4f |", *value);
+    } else {
+        std::printf(" |");
     }
-    return seconds;
 }
 
-void print_row(const fs::path& file, const LabelingProblem& problem,
-               const labeling::SolveResult& result, double seconds) {
-    std::string name = file.filename().string();
-    name = name.substr(0, name.find(".lab"));
+void print_row(const fs::path& file, const LabelingProblem& problem, const std::string& solver,
+               const Run& run) {
+    const SolveResult& result = run.result;
     const double units = problem.units_per_one();
-    std::printf("| %s | %s |", name.c_str(), result.solver.c_str());
-    if (result.solution) {
-        std::printf(" %.4f |", static_cast<double>(result.solution->value) / units);
-    } else {
-        std::printf(" |");
-    }
-    if (result.bound) {
-        std::printf(" %.4f |", static_cast<double>(*result.bound) / units);
-    } else {
-        std::printf(" |");
-    }
-    const bool is_optimal = result.status == labeling::SolveStatus::Optimal;
-    if (is_optimal) {
+    std::printf("| %s | %s |", labeling_runs::problem_name(file).c_str(), solver.c_str());
+    std::optional<double> value, bound;
+    if (result.solution) value = static_cast<double>(result.solution->value) / units;
+    if (result.bound) bound = static_cast<double>(*result.bound) / units;
+    print_value(value);
+    print_value(bound);
+    if (result.status == labeling::SolveStatus::Optimal) {
         std::printf(" proven |");
     } else if (const auto gap = result.relative_gap()) {
         std::printf(" %.3f%% |", 100 * *gap);
@@ -158,7 +150,7 @@ void print_row(const fs::path& file, const LabelingProblem& problem,
         }
     }
     const auto own = result.statistics.find("solver_seconds");
-    std::printf(" %.2f | %.2f | %.2f | %.2f | %.0f | %lld |", seconds, result.seconds,
+    std::printf(" %.2f | %.2f | %.2f | %.2f | %.0f | %lld |", run.processor_seconds, result.seconds,
                 own == result.statistics.end() ? result.seconds : own->second, last_value,
                 nodes == result.statistics.end() ? 0.0 : nodes->second,
                 static_cast<long long>(result.work));
@@ -166,33 +158,169 @@ void print_row(const fs::path& file, const LabelingProblem& problem,
     std::fflush(stdout);
 }
 
-void run(const Arguments& arguments) {
-#ifdef LABELING_WITH_MIP
-    const labeling::SolverRegistry solvers = labeling::all_solvers();
-#else
-    const labeling::SolverRegistry solvers = labeling::builtin_solvers();
-#endif
+void print_runs(const Arguments& arguments) {
     std::printf(
         "| problem | solver | value | bound | gap | CPU s | s | own s | last value at | nodes "
         "| work | message |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const fs::path& file : arguments.files) {
         LabelingProblem problem = labeling::read_problem(file);
-        if (arguments.permutation > 0) problem = renamed(problem, arguments.permutation);
-        for (const std::string& name : arguments.solvers) {
-            const double before = processor_seconds();
-            const labeling::SolveResult result =
-                solvers.find(name)->solve(problem, arguments.options);
-            print_row(file, problem, result, processor_seconds() - before);
+        if (arguments.permutation > 0) {
+            problem = labeling_runs::renamed(problem, arguments.permutation);
+        }
+        for (const Variant& variant : arguments.variants) {
+            print_row(file, problem, variant.text, solve(problem, variant, arguments.options));
         }
     }
+}
+
+// ---- medians over renamings -----------------------------------------------------------------
+
+constexpr double kLeastSeconds = 0.05;
+constexpr double kEasySeconds = 1;
+
+/// Seconds to the proof as they count.
+double counted_seconds(const Run& run, double limit) {
+    const SolveStatus status = run.result.status;
+    if (status != SolveStatus::Optimal && status != SolveStatus::Infeasible) return limit;
+    double seconds = run.processor_seconds;
+    const auto own = run.result.statistics.find("solver_seconds");
+    if (own != run.result.statistics.end()) seconds = std::min(seconds, own->second);
+    return std::clamp(seconds, kLeastSeconds, limit);
+}
+
+struct Median {
+    double seconds = 0;
+    int proven = 0;
+    int failed = 0;  ///< runs in which an external solver was missing or crashed
+    bool counts(int runs) const { return failed < runs; }
+};
+
+/// Problems by solvers.
+using Table = std::vector<std::vector<Median>>;
+
+std::vector<Median> medians(const fs::path& file, const Arguments& arguments) {
+    const LabelingProblem problem = labeling::read_problem(file);
+    const double limit = arguments.options.time_limit->count();
+    std::vector<std::vector<double>> seconds(arguments.variants.size());
+    std::vector<Median> row(arguments.variants.size());
+    for (int k = 1; k <= arguments.permutations; ++k) {
+        const auto order = static_cast<std::uint64_t>(k);
+        const LabelingProblem renamed = labeling_runs::renamed(problem, order);
+        for (std::size_t v = 0; v < arguments.variants.size(); ++v) {
+            const Run run = solve(renamed, arguments.variants[v], arguments.options);
+            seconds[v].push_back(counted_seconds(run, limit));
+            row[v].proven += seconds[v].back() < limit ? 1 : 0;
+            if (run.result.stop_reason == labeling::StopReason::SolverFailed) {
+                ++row[v].failed;
+                std::fprintf(stderr, "%s: %s\n", arguments.variants[v].text.c_str(),
+                             run.result.message.c_str());
+            }
+        }
+    }
+    for (std::size_t v = 0; v < row.size(); ++v) {
+        std::sort(seconds[v].begin(), seconds[v].end());
+        const std::size_t middle = seconds[v].size() / 2;
+        row[v].seconds = seconds[v].size() % 2 == 1
+                             ? seconds[v][middle]
+                             : (seconds[v][middle - 1] + seconds[v][middle]) / 2;
+    }
+    return row;
+}
+
+/// Index of the fastest of all but the first solver; 0 when all others fail.
+std::size_t best_other(const std::vector<Median>& row, int runs) {
+    std::size_t best = 0;
+    for (std::size_t v = 1; v < row.size(); ++v) {
+        if (!row[v].counts(runs)) continue;
+        if (best == 0 || row[v].seconds < row[best].seconds) best = v;
+    }
+    return best;
+}
+
+/// Geometric mean of how many times faster the first solver is; `other` picks the opponent.
+template <class Other>
+void print_mean(const Table& table, const std::string& name, const Other& other) {
+    double sums[2] = {0, 0};
+    int counts[2] = {0, 0};
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& row : table) {
+        const std::size_t v = other(row);
+        if (v == 0) continue;
+        const double opponent = row[v].seconds;
+        const double ratio = opponent / row[0].seconds;
+        least = std::min(least, ratio);
+        for (int hard : {0, 1}) {
+            if (hard == 1 && opponent <= kEasySeconds) continue;
+            sums[hard] += std::log(ratio);
+            ++counts[hard];
+        }
+    }
+    std::printf("| %s |", name.c_str());
+    for (int hard : {0, 1}) {
+        if (counts[hard] > 0) std::printf(" %.2f", std::exp(sums[hard] / counts[hard]));
+        std::printf(" | %d |", counts[hard]);
+    }
+    if (counts[0] > 0) std::printf(" %.2f", least);
+    std::printf(" |\n");
+}
+
+void print_medians(const Arguments& arguments) {
+    const auto& variants = arguments.variants;
+    const bool has_others = variants.size() > 1;
+    const int runs = arguments.permutations;
+    std::printf("Median seconds of %d renamings, limit %g s; in brackets how many were proven.\n\n",
+                runs, arguments.options.time_limit->count());
+    std::printf("| problem |");
+    for (const Variant& variant : variants) std::printf(" %s |", variant.text.c_str());
+    std::printf(has_others ? " best other | ratio |\n|---|---|---|" : "\n|---|");
+    for (std::size_t v = 0; v < variants.size(); ++v) std::printf("---|");
+    std::printf("\n");
+    Table table;
+    for (const fs::path& file : arguments.files) {
+        table.push_back(medians(file, arguments));
+        const auto& row = table.back();
+        std::printf("| %s |", labeling_runs::problem_name(file).c_str());
+        for (const Median& m : row) {
+            if (m.counts(runs)) {
+                std::printf(" %.2f (%d) |", m.seconds, m.proven);
+            } else {
+                std::printf(" failed |");
+            }
+        }
+        const std::size_t best = best_other(row, runs);
+        if (best > 0) {
+            std::printf(" %s | %.2f |", variants[best].text.c_str(),
+                        row[best].seconds / row[0].seconds);
+        } else if (has_others) {
+            std::printf(" | |");
+        }
+        std::printf("\n");
+        std::fflush(stdout);
+    }
+    if (!has_others) return;
+    std::printf(
+        "\n| %s against | times faster, all | problems | where it needs over %g s | problems "
+        "| least |\n|---|---|---|---|---|---|\n",
+        variants[0].text.c_str(), kEasySeconds);
+    for (std::size_t v = 1; v < variants.size(); ++v) {
+        print_mean(table, variants[v].text,
+                   [v, runs](const auto& row) { return row[v].counts(runs) ? v : 0; });
+    }
+    print_mean(table, "the best per problem",
+               [runs](const auto& row) { return best_other(row, runs); });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     try {
-        run(parse(argc, argv));
+        const Arguments arguments = parse(argc, argv);
+        if (arguments.permutations > 0) {
+            print_medians(arguments);
+        } else {
+            print_runs(arguments);
+        }
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "labeling_solvers: %s\n", error.what());

@@ -6,11 +6,11 @@
 #include <exception>
 #include <map>
 #include <string>
-#include <string_view>
 
 #include "labeling/errors.h"
 #include "labeling/formats.h"
 #include "labeling/generators.h"
+#include "tools/argument_words.h"
 
 namespace {
 
@@ -29,27 +29,21 @@ std::string usage() {
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    for (int k = 1; k < argc; ++k) {
-        const std::string_view word = argv[k];
-        auto next = [&]() -> std::string {
-            if (k + 1 >= argc) throw labeling::InputError(std::string(word) + " needs a value");
-            return argv[++k];
-        };
-        if (word == "-o") {
-            arguments.output = next();
-        } else if (word == "--seed") {
-            arguments.options["seed"] = next();
-        } else if (word == "--set") {
-            const std::string pair = next();
-            const std::size_t at = pair.find('=');
-            if (at == std::string::npos) throw labeling::InputError("--set needs KEY=VALUE");
-            arguments.options[pair.substr(0, at)] = pair.substr(at + 1);
-        } else if (word == "--solution") {
-            arguments.solution = next();
-        } else if (arguments.family.empty() && !word.starts_with("-")) {
-            arguments.family = word;
+    labeling::ArgumentWords words(argc, argv);
+    while (words.next()) {
+        if (words.is("-o")) {
+            arguments.output = words.value();
+        } else if (words.is("--seed")) {
+            arguments.options["seed"] = words.value();
+        } else if (words.is("--set")) {
+            const auto [key, value] = words.key_and_value();
+            arguments.options[key] = value;
+        } else if (words.is("--solution")) {
+            arguments.solution = words.value();
+        } else if (arguments.family.empty() && !words.is_option()) {
+            arguments.family = words.word();
         } else {
-            throw labeling::InputError("unknown argument '" + std::string(word) + "'");
+            words.unknown();
         }
     }
     if (arguments.family.empty()) throw labeling::InputError("no family given");

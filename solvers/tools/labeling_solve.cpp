@@ -7,11 +7,11 @@
 #include <ctime>
 #include <exception>
 #include <string>
-#include <string_view>
 
 #include "labeling/errors.h"
 #include "labeling/formats.h"
 #include "labeling/solver.h"
+#include "tools/argument_words.h"
 #ifdef LABELING_WITH_MIP
 #include "labeling_mip/mip_solvers.h"
 #endif
@@ -38,35 +38,29 @@ struct Arguments {
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    for (int k = 1; k < argc; ++k) {
-        const std::string_view word = argv[k];
-        auto next = [&]() -> std::string {
-            if (k + 1 >= argc) throw labeling::InputError(std::string(word) + " needs a value");
-            return argv[++k];
-        };
-        if (word == "--solver") {
-            arguments.solver = next();
-        } else if (word == "--work") {
-            arguments.options.work_limit = static_cast<std::int64_t>(std::stod(next()));
-        } else if (word == "--time") {
-            arguments.options.time_limit = std::chrono::duration<double>(std::stod(next()));
-        } else if (word == "--seed") {
-            arguments.options.seed = std::stoull(next());
-        } else if (word == "--gap") {
-            arguments.options.relative_gap = std::stod(next());
-        } else if (word == "--set") {
-            const std::string pair = next();
-            const std::size_t at = pair.find('=');
-            if (at == std::string::npos) throw labeling::InputError("--set needs KEY=VALUE");
-            arguments.options.extra[pair.substr(0, at)] = pair.substr(at + 1);
-        } else if (word == "--trace") {
+    labeling::ArgumentWords words(argc, argv);
+    while (words.next()) {
+        if (words.is("--solver")) {
+            arguments.solver = words.value();
+        } else if (words.is("--work")) {
+            arguments.options.work_limit = words.integer();
+        } else if (words.is("--time")) {
+            arguments.options.time_limit = std::chrono::duration<double>(words.real());
+        } else if (words.is("--seed")) {
+            arguments.options.seed = words.seed();
+        } else if (words.is("--gap")) {
+            arguments.options.relative_gap = words.real();
+        } else if (words.is("--set")) {
+            const auto [key, value] = words.key_and_value();
+            arguments.options.extra[key] = value;
+        } else if (words.is("--trace")) {
             arguments.has_trace = true;
-        } else if (word == "-o") {
-            arguments.output = next();
-        } else if (arguments.file.empty() && !word.starts_with("-")) {
-            arguments.file = word;
+        } else if (words.is("-o")) {
+            arguments.output = words.value();
+        } else if (arguments.file.empty() && !words.is_option()) {
+            arguments.file = words.word();
         } else {
-            throw labeling::InputError("unknown argument '" + std::string(word) + "'");
+            words.unknown();
         }
     }
     if (arguments.file.empty()) throw labeling::InputError("no problem file given");

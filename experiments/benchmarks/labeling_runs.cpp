@@ -1,0 +1,80 @@
+#include "labeling_runs.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <string>
+
+#ifdef LABELING_WITH_MIP
+#include "labeling_mip/mip_solvers.h"
+#endif
+
+namespace labeling_runs {
+
+namespace fs = std::filesystem;
+using labeling::Label;
+using labeling::LabelingProblem;
+
+labeling::SolverRegistry every_solver() {
+#ifdef LABELING_WITH_MIP
+    return labeling::all_solvers();
+#else
+    return labeling::builtin_solvers();
+#endif
+}
+
+std::vector<fs::path> problem_files(const fs::path& path) {
+    if (!fs::is_directory(path)) return {path};
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(path)) {
+        const std::string name = entry.path().filename().string();
+        if (name.ends_with(".lab") || name.ends_with(".lab.gz")) files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::string problem_name(const fs::path& file) {
+    const std::string name = file.filename().string();
+    return name.substr(0, name.find(".lab"));
+}
+
+LabelingProblem renamed(const LabelingProblem& problem, std::uint64_t seed) {
+    std::vector<Label> order(static_cast<std::size_t>(problem.label_count()));
+    std::iota(order.begin(), order.end(), 0);
+    std::mt19937_64 engine(seed);
+    for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[engine() % k]);
+    labeling::ProblemBuilder builder;
+    std::vector<labeling::Value> weights(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        weights[order[i]] = problem.weight(static_cast<Label>(i));
+    }
+    for (labeling::Value w : weights) builder.add_label(w);
+    for (const auto& c : problem.conflicts()) builder.add_conflict(order[c.first], order[c.second]);
+    for (const auto& b : problem.bonuses()) {
+        builder.add_bonus(order[b.first], order[b.second], b.value);
+    }
+    std::vector<labeling::Rule> rules(problem.rules().begin(), problem.rules().end());
+    for (std::size_t k = rules.size(); k > 1; --k) std::swap(rules[k - 1], rules[engine() % k]);
+    for (labeling::Rule& rule : rules) {
+        for (labeling::Term& t : rule.terms) t.label = order[t.label];
+        builder.add_rule(std::move(rule));
+    }
+    builder.set_units_per_one(problem.units_per_one());
+    return builder.build();
+}
+
+double processor_seconds() {
+    double seconds = 0;
+    for (int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+        rusage usage{};
+        getrusage(who, &usage);
+        seconds += static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+                   1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+    }
+    return seconds;
+}
+
+}  // namespace labeling_runs
