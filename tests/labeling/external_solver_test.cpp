@@ -60,9 +60,16 @@ protected:
         return "open(sys.argv[2], 'w').write('''" + lines + "end\n''')\n";
     }
 
-    static SolveOptions seconds(double time) {
+    /// A time limit by a clock that runs out as soon as `file` has content, so that the program has
+    /// come as far as it should, however slow the machine is.
+    static SolveOptions limit_when_written(const fs::path& file) {
         SolveOptions options;
-        options.time_limit = std::chrono::duration<double>(time);
+        options.time_limit = std::chrono::duration<double>(1);
+        options.clock = [file] {
+            std::error_code missing;
+            const auto size = fs::file_size(file, missing);
+            return !missing && size > 0 ? 1000.0 : 0.0;
+        };
         return options;
     }
 
@@ -220,12 +227,15 @@ bool is_gone(const fs::path& file) {
 TEST_F(FakePrograms, OneThatHangsIsStopped) {
     const fs::path numbers = folder_.path() / "numbers";
     const std::string note = "open('" + numbers.string() + "', 'a').write(f'{os.getpid()}\\n')\n";
-    const SolveResult obedient = solve(note + "while True: signal.pause()\n", seconds(0.5));
+    const SolveResult obedient =
+        solve(note + "while True: signal.pause()\n", limit_when_written(numbers));
     EXPECT_EQ(obedient.stop_reason, StopReason::TimeLimit);
     EXPECT_EQ(obedient.status, SolveStatus::NoSolution);
+    EXPECT_TRUE(is_gone(numbers));
+    fs::remove(numbers);
     const SolveResult deaf = solve(
         "signal.signal(signal.SIGTERM, signal.SIG_IGN)\n" + note + "while True: signal.pause()\n",
-        seconds(0.5));
+        limit_when_written(numbers));
     EXPECT_EQ(deaf.stop_reason, StopReason::TimeLimit);
     EXPECT_TRUE(is_gone(numbers));
 }
@@ -247,16 +257,18 @@ TEST_F(FakePrograms, WhatItStartedIsEndedWithIt) {
     EXPECT_EQ(result.status, SolveStatus::Optimal);
     EXPECT_TRUE(is_gone(numbers));
     fs::remove(numbers);
-    const SolveResult stopped = solve(fork + "while True: signal.pause()\n", seconds(1));
+    const SolveResult stopped =
+        solve(fork + "while True: signal.pause()\n", limit_when_written(numbers));
     EXPECT_EQ(stopped.stop_reason, StopReason::TimeLimit);
     EXPECT_TRUE(is_gone(numbers));
 }
 
 TEST_F(FakePrograms, AnAnswerBeforeTheLimitSurvivesTheHang) {
+    const fs::path sign = folder_.path() / "sign";
     const SolveResult result =
-        solve(answer("status feasible\nvalue 12\nbound 20\nlabel 1\nlabel 3\n") +
-                  "while True: signal.pause()\n",
-              seconds(1));
+        solve(answer("status feasible\nvalue 12\nbound 20\nlabel 1\nlabel 3\n") + "open('" +
+                  sign.string() + "', 'w').write('x')\nwhile True: signal.pause()\n",
+              limit_when_written(sign));
     EXPECT_EQ(result.stop_reason, StopReason::TimeLimit);
     ASSERT_TRUE(result.solution && result.bound);
     EXPECT_EQ(result.solution->value, 12);
