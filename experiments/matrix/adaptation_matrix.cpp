@@ -1,13 +1,17 @@
-// Adapts networks of many meshes at many scales, three ways: best mode with the default solver,
-// best mode with greedy selection, and paper mode. Prints one row a run as CSV: status,
-// conformity by the independent checker, coverage, crumbs, and how much of the isolated creases is
-// there; then, as Markdown, the sums and every case in which best mode falls short of something.
-// The exit code is 1 if best mode left anything that does not conform.
+// Adapts networks of many meshes at many scales, several ways: best mode with the default solver,
+// best mode with greedy selection, paper mode, and best mode for quads. Prints one row a run as
+// CSV: status, conformity by the independent checker, coverage, crumbs, and how much of the
+// isolated creases is there; then, as Markdown, the sums, how the labeling problems were solved
+// (the first of a run, and those of later iterations, where most is known), every run with a
+// problem that was not proven, and every case in which best mode falls short of something. The exit
+// code is 1 if best mode left anything that does not conform.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,6 +20,7 @@
 #include "adaptation/conformity.h"
 #include "features/features.h"
 #include "geometry/models.h"
+#include "labeling/formats.h"
 #include "labeling_mip/mip_solvers.h"
 #include "visible_creases.h"
 
@@ -28,7 +33,7 @@ struct Arguments {
     std::vector<std::string> detectors{"sharp", "100", "200"};
     std::vector<double> scales{1, 2, 3, 5, 8};
     std::vector<std::string> variants{"best", "greedy", "paper"};
-    std::string csv;
+    std::string csv, problem_folder;
     double ratio = 1.5, lambda0 = 100, alpha_loop = -1;
     int threads = 1;
     std::int64_t work = 0;
@@ -46,6 +51,8 @@ struct Row {
     int crumbs = 0;
     double seconds = 0;
     std::string violation;  ///< the first
+    /// Seconds of each iteration's solving, and whether all of it was proven.
+    std::vector<double> solving;
 };
 
 LoadedMesh load(const std::string& name) {
@@ -81,18 +88,31 @@ AdaptationOptions adaptation_options(const Arguments& arguments, const std::stri
     options.threads = arguments.threads;
     if (arguments.work > 0) options.solve.work_limit = arguments.work;
     options.mode = variant == "paper" ? AdaptationMode::Paper : AdaptationMode::Best;
+    if (variant == "quad") options.target = ElementType::Quad;
+    options.is_recording_problems = !arguments.problem_folder.empty();
     options.solver = labeling::all_solvers().find(variant == "greedy" ? "greedy" : "auto");
     return options;
 }
 
+/// What was not proven of a run, for a closer look.
+void save_problems(const AdaptationReport& report, const std::string& folder,
+                   const std::string& title) {
+    for (std::size_t k = 0; k < report.problems.size(); ++k) {
+        if (report.iterations[k].status == labeling::SolveStatus::Optimal) continue;
+        const auto file = std::filesystem::path(folder) / (title + "_" + std::to_string(k + 1));
+        labeling::write_problem(report.problems[k], file.string() + ".lab.gz");
+    }
+}
+
 Row run(const LoadedMesh& mesh, const FeatureCurveNetwork& initial, const std::string& variant,
-        double scale, const Arguments& arguments) {
+        double scale, const std::string& title, const Arguments& arguments) {
     const double rmin = scale / 100 * bounding_box(mesh.mesh).diagonal();
     const AdaptationOptions options = adaptation_options(arguments, variant, rmin);
     const AdaptationResult result = adapt_network(mesh, initial, options);
     ConformityOptions conformity;
     conformity.rmin = rmin;
     conformity.ratio = options.ratio;
+    conformity.is_quad_target = options.target == ElementType::Quad;
     const ConformityReport report = check_conformity(result.network, conformity, &mesh.mesh);
     Row row;
     row.variant = variant;
@@ -113,6 +133,11 @@ Row run(const LoadedMesh& mesh, const FeatureCurveNetwork& initial, const std::s
     row.is_optimal = result.report.is_optimal;
     row.coverage = result.report.coverage;
     row.seconds = result.report.seconds;
+    for (const IterationReport& iteration : result.report.iterations) {
+        const auto seconds = iteration.seconds.find("solve");
+        row.solving.push_back(seconds == iteration.seconds.end() ? 0 : seconds->second);
+    }
+    if (!row.is_optimal) save_problems(result.report, arguments.problem_folder, title);
     row.crumbs = experiments::count_crumbs(initial, result.network, rmin);
     for (const auto& crease : experiments::isolated_creases(mesh, result.network, rmin)) {
         row.isolated += crease.length / rmin;
@@ -160,6 +185,50 @@ void print_sums(const std::vector<Case>& cases, const std::vector<std::string>& 
         std::printf("| %s | %d | %d | %d | %.4f | %d | %.0f | %.4f | %d | %.0f |\n",
                     variant.c_str(), runs, conforming, optimal, coverage / runs, crumbs, isolated,
                     isolated > 0 ? covered / isolated : 1.0, creases, seconds);
+    }
+}
+
+/// Which runs are proven, and how long later iterations take, where little has changed.
+void print_solving(const std::vector<Case>& cases, const std::vector<std::string>& variants) {
+    constexpr double kPatience = 10, kResolve = 0.05;
+    std::printf(
+        "\n| variant | runs | every problem proven | also in %g s each | longest problem, s "
+        "| later problems | median, ms | longest, ms | under %g ms |\n"
+        "|---|---|---|---|---|---|---|---|---|\n",
+        kPatience, 1000 * kResolve);
+    for (const std::string& variant : variants) {
+        int runs = 0, proven = 0, soon = 0;
+        double longest = 0;
+        std::vector<double> later;
+        for (const Case& c : cases) {
+            const Row& row = c.at(variant);
+            if (row.solving.empty()) continue;
+            const double most = *std::max_element(row.solving.begin(), row.solving.end());
+            ++runs;
+            proven += row.is_optimal;
+            soon += row.is_optimal && most <= kPatience;
+            longest = std::max(longest, most);
+            later.insert(later.end(), row.solving.begin() + 1, row.solving.end());
+        }
+        if (runs == 0) continue;
+        std::sort(later.begin(), later.end());
+        const auto quick = std::upper_bound(later.begin(), later.end(), kResolve) - later.begin();
+        std::printf("| %s | %d | %.1f %% | %.1f %% | %.2f | %zu | %.1f | %.1f | %.1f %% |\n",
+                    variant.c_str(), runs, 100.0 * proven / runs, 100.0 * soon / runs, longest,
+                    later.size(), later.empty() ? 0.0 : 1000 * later[later.size() / 2],
+                    later.empty() ? 0.0 : 1000 * later.back(),
+                    later.empty()
+                        ? 100.0
+                        : 100.0 * static_cast<double>(quick) / static_cast<double>(later.size()));
+    }
+    std::printf("\nNot proven:\n");
+    for (const Case& c : cases) {
+        for (const std::string& variant : variants) {
+            const Row& row = c.at(variant);
+            if (variant == "greedy" || row.is_optimal) continue;
+            std::printf("- %s %s, %g %%, %s\n", row.mesh.c_str(), row.detector.c_str(), row.scale,
+                        variant.c_str());
+        }
     }
 }
 
@@ -223,7 +292,10 @@ int run_all(const Arguments& arguments) {
             for (double scale : arguments.scales) {
                 Case rows;
                 for (const std::string& variant : arguments.variants) {
-                    Row row = run(mesh, initial, variant, scale, arguments);
+                    char title[200];
+                    std::snprintf(title, sizeof title, "%s_%s_%g_%s", short_name(name).c_str(),
+                                  detector.c_str(), scale, variant.c_str());
+                    Row row = run(mesh, initial, variant, scale, title, arguments);
                     row.mesh = short_name(name);
                     row.detector = detector;
                     is_conforming = is_conforming && (variant == "paper" || row.counted == 0);
@@ -236,6 +308,7 @@ int run_all(const Arguments& arguments) {
     }
     if (csv != stdout) std::fclose(csv);
     print_sums(cases, arguments.variants);
+    print_solving(cases, arguments.variants);
     print_exceptions(cases, arguments.variants);
     return is_conforming ? 0 : 1;
 }
@@ -249,13 +322,15 @@ int main(int argc, char** argv) {
     app.add_option("--detectors", arguments.detectors, "sharp, or a VSA patch count")
         ->delimiter(',');
     app.add_option("--scales", arguments.scales, "rmin, percent of the diagonal")->delimiter(',');
-    app.add_option("--variants", arguments.variants, "best, greedy, paper")->delimiter(',');
+    app.add_option("--variants", arguments.variants, "best, greedy, paper, quad")->delimiter(',');
     app.add_option("--ratio", arguments.ratio, "rmax / rmin");
     app.add_option("--lambda0", arguments.lambda0, "weight of smoothness");
     app.add_option("--alpha-loop", arguments.alpha_loop, "weight factor of loops");
     app.add_option("--threads", arguments.threads, "threads of one run");
     app.add_option("--work", arguments.work, "work limit of the solver for one adaptation");
     app.add_option("--csv", arguments.csv, "file for the rows; standard output without it");
+    app.add_option("--save-unproven", arguments.problem_folder,
+                   "folder for the problems that were not proven");
     CLI11_PARSE(app, argc, argv);
     try {
         return run_all(arguments);
