@@ -5,31 +5,23 @@
 // of work, in how many runs it was reached, and processor seconds a run. A solver may be followed
 // by extra options of its own. --best names a file of lines `problem value`; better values met here
 // count too. --permute renames the labels by the seed.
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <numeric>
-#include <random>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "labeling/errors.h"
 #include "labeling/formats.h"
-#include "labeling/solver.h"
-#ifdef LABELING_WITH_MIP
-#include "labeling_mip/mip_solvers.h"
-#endif
+#include "labeling_runs.h"
+#include "tools/argument_words.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-using labeling::Label;
 using labeling::LabelingProblem;
 using labeling::Value;
 
@@ -85,83 +77,37 @@ Variant parse_variant(const std::string& text) {
     return variant;
 }
 
-void add_files(const fs::path& path, std::vector<fs::path>& files) {
-    if (!fs::is_directory(path)) {
-        files.push_back(path);
-        return;
-    }
-    const std::size_t first = files.size();
-    for (const auto& entry : fs::directory_iterator(path)) {
-        if (entry.path().string().find(".lab") != std::string::npos) files.push_back(entry.path());
-    }
-    std::sort(files.begin() + static_cast<std::ptrdiff_t>(first), files.end());
-}
-
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    std::string solvers = "local-search";
-    for (int k = 1; k < argc; ++k) {
-        const std::string_view word = argv[k];
-        auto next = [&]() -> std::string {
-            if (k + 1 >= argc) throw labeling::InputError(std::string(word) + " needs a value");
-            return argv[++k];
-        };
-        if (word == "--solvers") {
-            solvers = next();
-        } else if (word == "--seeds") {
-            arguments.seeds = std::stoi(next());
-        } else if (word == "--threads") {
-            arguments.threads = std::stoi(next());
-        } else if (word == "--permute") {
+    std::vector<std::string> solvers{"local-search"};
+    labeling::ArgumentWords words(argc, argv);
+    while (words.next()) {
+        if (words.is("--solvers")) {
+            solvers = words.list();
+        } else if (words.is("--seeds")) {
+            arguments.seeds = static_cast<int>(words.integer());
+        } else if (words.is("--threads")) {
+            arguments.threads = static_cast<int>(words.integer());
+        } else if (words.is("--permute")) {
             arguments.is_permuted = true;
-        } else if (word == "--at") {
+        } else if (words.is("--at")) {
             arguments.checkpoints.clear();
-            for (const std::string& ticks : split(next(), ',')) {
+            for (const std::string& ticks : words.list()) {
                 arguments.checkpoints.push_back(static_cast<std::int64_t>(std::stod(ticks)));
             }
-        } else if (word == "--best") {
-            std::ifstream in(next());
+        } else if (words.is("--best")) {
+            std::ifstream in{std::string(words.value())};
             std::string name;
             for (double value = 0; in >> name >> value;) arguments.best[name] = value;
         } else {
-            add_files(fs::path(word), arguments.files);
+            const auto files = labeling_runs::problem_files(fs::path(words.word()));
+            arguments.files.insert(arguments.files.end(), files.begin(), files.end());
         }
     }
-    for (const std::string& text : split(solvers, ',')) {
-        arguments.variants.push_back(parse_variant(text));
-    }
+    for (const std::string& text : solvers) arguments.variants.push_back(parse_variant(text));
     if (arguments.files.empty()) throw labeling::InputError("no problem given");
+    if (arguments.seeds < 1) throw labeling::InputError("--seeds needs at least 1");
     return arguments;
-}
-
-LabelingProblem renamed(const LabelingProblem& problem, std::uint64_t seed) {
-    std::vector<Label> order(problem.label_count());
-    std::iota(order.begin(), order.end(), 0);
-    std::mt19937_64 engine(seed);
-    for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[engine() % k]);
-    labeling::ProblemBuilder builder;
-    std::vector<Value> weights(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        weights[order[i]] = problem.weight(static_cast<Label>(i));
-    }
-    for (Value w : weights) builder.add_label(w);
-    for (const auto& c : problem.conflicts()) builder.add_conflict(order[c.first], order[c.second]);
-    for (const auto& b : problem.bonuses()) {
-        builder.add_bonus(order[b.first], order[b.second], b.value);
-    }
-    for (labeling::Rule rule : problem.rules()) {
-        for (labeling::Term& t : rule.terms) t.label = order[t.label];
-        builder.add_rule(std::move(rule));
-    }
-    builder.set_units_per_one(problem.units_per_one());
-    return builder.build();
-}
-
-double processor_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-           1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
 
 /// Best value of the trace by then, in units of the real objective.
@@ -174,11 +120,7 @@ double value_at(const labeling::SolveResult& result, std::int64_t work, double u
 }
 
 Row run_variant(const Arguments& arguments, const Variant& variant, const LabelingProblem& given) {
-#ifdef LABELING_WITH_MIP
-    const labeling::SolverRegistry solvers = labeling::all_solvers();
-#else
-    const labeling::SolverRegistry solvers = labeling::builtin_solvers();
-#endif
+    const labeling::SolverRegistry solvers = labeling_runs::every_solver();
     Row row;
     row.values.resize(arguments.checkpoints.size());
     for (int seed = 1; seed <= arguments.seeds; ++seed) {
@@ -188,11 +130,11 @@ Row run_variant(const Arguments& arguments, const Variant& variant, const Labeli
         options.extra = variant.extra;
         options.work_limit = arguments.checkpoints.back();
         const LabelingProblem problem =
-            arguments.is_permuted ? renamed(given, options.seed) : LabelingProblem();
-        const double before = processor_seconds();
+            arguments.is_permuted ? labeling_runs::renamed(given, options.seed) : LabelingProblem();
+        const double before = labeling_runs::processor_seconds();
         const auto result =
             solvers.find(variant.solver)->solve(arguments.is_permuted ? problem : given, options);
-        row.seconds += (processor_seconds() - before) / arguments.seeds;
+        row.seconds += (labeling_runs::processor_seconds() - before) / arguments.seeds;
         for (std::size_t c = 0; c < arguments.checkpoints.size(); ++c) {
             row.values[c].push_back(
                 value_at(result, arguments.checkpoints[c], given.units_per_one()));
@@ -249,8 +191,7 @@ void run(const Arguments& arguments) {
     std::printf("---|\n");
     std::vector<Total> totals(arguments.variants.size());
     for (const fs::path& file : arguments.files) {
-        std::string name = file.filename().string();
-        name = name.substr(0, name.find(".lab"));
+        const std::string name = labeling_runs::problem_name(file);
         const LabelingProblem problem = labeling::read_problem(file);
         const auto known = arguments.best.find(name);
         double best = known == arguments.best.end() ? 0 : known->second;
@@ -262,7 +203,7 @@ void run(const Arguments& arguments) {
                 best = value;
             }
         }
-        if (known != arguments.best.end() && best > known->second * (1 + 1e-8)) {
+        if (known == arguments.best.end() || best > known->second * (1 + 1e-8)) {
             std::fprintf(stderr, "new best: %s %.4f\n", name.c_str(), best);
         }
         for (std::size_t v = 0; v < rows.size(); ++v) {

@@ -22,9 +22,22 @@ CompoundMoves::CompoundMoves(const SearchModel& model, SearchState& state, Rando
     : problem_(model.problem()), rows_(model.rows()), state_(state), random_(random) {}
 
 bool CompoundMoves::end(bool is_good, Value threshold, Value before) {
-    if (is_good && state_.value() - before >= threshold) return true;
+    if (is_good) {
+        refill();
+        if (state_.value() - before >= threshold) return true;
+    }
     state_.roll_back();
     return false;
+}
+
+/// Switches on what the evicted kept off, where that is free.
+void CompoundMoves::refill() {
+    for (std::size_t k = 0; k < state_.freed().size(); ++k) {
+        const Label i = state_.freed()[k];
+        if (state_.is_on(i) || state_.gain(i) <= 0 || is_touched(i) || !state_.fits(i)) continue;
+        state_.mark(i);
+        state_.flip(i);
+    }
 }
 
 bool CompoundMoves::eviction_loss(Label i, Value most, Value& loss) {

@@ -32,6 +32,7 @@ private:
     bool is_touched(Label i) const {
         return state_.is_marked(i) || (allowed_ != nullptr && (*allowed_)[i] == 0);
     }
+    void refill();
     bool end(bool is_good, Value threshold, Value before);
     /// Loss of switching i on by evictions, given up beyond `most`. False: given up, or a touched
     /// label is in the way.

@@ -23,12 +23,19 @@ namespace {
 
 // Chosen by measurement on the problems in data/instances and generated ones at 1 and 10 s.
 constexpr double kColdest = 0.2;
+constexpr double kColdLow = 0.1;
+constexpr double kColdHigh = 0.25;
 constexpr std::array<double, 4> kReheats{1.2, 0.6, 2.4, 0.9};
-constexpr double kFirstTicks = 150;  ///< per label
+constexpr std::int64_t kFirstTicks = 150;                         ///< per label
+constexpr std::int64_t kFirstMost = 3'000'000, kFirstLeast = 25;  ///< where that is much
+constexpr std::int64_t kLargestRegion = 4000;
+constexpr double kLeastHeat = 0.5;
+constexpr double kRestartHeat = 3.0;
+constexpr std::int64_t kFirstShare = 4;  ///< of the work, at most
 constexpr std::int64_t kLeastRound = 20000;
-constexpr double kPatience = 500;  ///< ticks per label without gain
+constexpr double kPatience = 250;  ///< ticks per label without gain
 constexpr double kSplitSize = 1000;
-constexpr double kPatienceShare = 0.5;
+constexpr double kPatienceShare = 0.25;
 constexpr std::uint32_t kSmallestWindow = 100, kLargestWindow = 500;
 constexpr std::size_t kPoolSize = 6;
 constexpr double kCoreTicks = 100;  ///< per label of a difference
@@ -100,12 +107,24 @@ private:
         ++climbs_;
     }
 
+    /// What the clock leaves, as far as ticks tell.
+    std::int64_t ticks_left() const {
+        const double ticks = 1e7 * control_.seconds_left();
+        return ticks < 1e18 ? static_cast<std::int64_t>(ticks) : std::int64_t{1} << 60;
+    }
+
     /// The first climb starts from what was given, the others from anywhere.
     void begin_climb() {
-        Chain chain{options_.start_temperature, kColdest,
-                    static_cast<std::int64_t>(kFirstTicks * static_cast<double>(size_))};
+        Chain chain{climbs_ == 0 ? options_.start_temperature : kRestartHeat, kColdest, 0, false};
+        chain.ticks = std::min(kFirstTicks * size_, std::max(kFirstMost, kFirstLeast * size_));
         if (climbs_ == 0 && options_.first_chain > 0) chain.ticks = options_.first_chain;
-        chain.ticks = std::min(chain.ticks, control_.work_left() / 4);
+        // Where there is no time for a long chain, heat would only spoil what the start is worth.
+        const std::int64_t share = std::min(control_.work_left(), ticks_left()) / kFirstShare;
+        if (share < chain.ticks) {
+            const double part = static_cast<double>(share) / static_cast<double>(chain.ticks);
+            chain.hottest = std::max(std::min(kLeastHeat, chain.hottest), chain.hottest * part);
+            chain.ticks = share;
+        }
         chain.ticks /= options_.lanes;
         if (climbs_ == 0 && is_split()) {
             return anneal_regions(chain, chain.ticks * options_.lanes / size_);
@@ -113,7 +132,6 @@ private:
         if (climbs_ == 0) {
             lanes_.run(lanes_.size(), [&](Annealer& lane, std::size_t) { lane.run_chain(chain); });
         } else {
-            chain.hottest = 3.0;
             lanes_.run(lanes_.size(), [&](Annealer& lane, std::size_t) { lane.restart(chain); });
             climb_ = lanes_.lane(0).best();
         }
@@ -128,7 +146,8 @@ private:
         lanes_.run(lanes_.size(), [&](Annealer& lane, std::size_t k) {
             const std::int64_t end = lane.work() + ticks;
             for (std::size_t n = k; lane.work() < end && !lane.is_stopped(); ++n) {
-                Chain chain{0, kColdest, 0, options_.by_worth && lane.unit() < 0.5};
+                Chain chain{0, kColdLow + (kColdHigh - kColdLow) * lane.unit(), 0,
+                            options_.by_worth && lane.unit() < 0.5};
                 if (kind.is_window) {
                     const auto size = static_cast<std::int64_t>(
                         kSmallestWindow + lane.unit() * (kLargestWindow - kSmallestWindow));
@@ -150,17 +169,31 @@ private:
     /// Each lane anneals a region of its own, so that all gains can be kept.
     void run_split(const ChainKind& kind) {
         const bool is_by_worth = options_.by_worth && random_.unit() < 0.5;
-        Chain chain{kReheats[kind.used % kReheats.size()], kColdest, 0, is_by_worth};
+        Chain chain{kReheats[kind.used % kReheats.size()],
+                    kColdLow + (kColdHigh - kColdLow) * random_.unit(), 0, is_by_worth};
         anneal_regions(chain, kind.ticks);
     }
 
+    /// Several regions a lane where there are many labels: a small one stays in the cache.
     void anneal_regions(const Chain& pattern, std::int64_t ticks) {
-        const auto regions = splitter_.split(random_, lanes_.size());
+        const auto each = static_cast<std::int64_t>(lanes_.size()) * kLargestRegion;
+        const auto regions = splitter_.split(
+            random_, lanes_.size() * static_cast<std::size_t>((size_ + each - 1) / each));
         control_.spend(splitter_.take_work() / 16);
+        std::vector<std::vector<std::size_t>> shares(lanes_.size());
+        std::vector<std::size_t> labels(lanes_.size(), 0);
+        for (std::size_t r = 0; r < regions.size(); ++r) {
+            const auto k = static_cast<std::size_t>(std::min_element(labels.begin(), labels.end()) -
+                                                    labels.begin());
+            shares[k].push_back(r);
+            labels[k] += regions[r].size();
+        }
         lanes_.run(lanes_.size(), [&](Annealer& lane, std::size_t k) {
-            Chain chain = pattern;
-            chain.ticks = ticks * static_cast<std::int64_t>(regions[k].size());
-            lane.run_window(regions[k], chain);
+            for (std::size_t r : shares[k]) {
+                Chain chain = pattern;
+                chain.ticks = ticks * static_cast<std::int64_t>(regions[r].size());
+                lane.run_window(regions[r], chain);
+            }
         });
         gather();
     }

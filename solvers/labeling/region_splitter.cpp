@@ -1,4 +1,5 @@
-// Breadth-first order over bonuses and conflicts from a random label, cut into equal stretches. A
+// Two regions: breadth-first order over bonuses and conflicts from a random label, cut in the
+// middle. More: breadth-first from as many random labels at once, which keeps borders short. A
 // label with a neighbour in an earlier region stays out, so changes in different regions can always
 // be combined: that is what makes the gains of searches that run side by side add up.
 #include "labeling/region_splitter.h"
@@ -33,10 +34,9 @@ void RegionSplitter::order_from(Label start) {
     }
 }
 
-std::vector<std::vector<Label>> RegionSplitter::split(Random& random, std::size_t count) {
+/// Regions of equal size.
+void RegionSplitter::cut(Random& random, std::size_t count) {
     const auto proposals = model_.proposals();
-    order_.clear();
-    region_.assign(model_.label_count(), kUnseen);
     const std::size_t first = random.below(static_cast<std::uint32_t>(proposals.size()));
     for (std::size_t k = 0; k < proposals.size(); ++k) {
         const Label i = proposals[(first + k) % proposals.size()];
@@ -44,6 +44,38 @@ std::vector<std::vector<Label>> RegionSplitter::split(Random& random, std::size_
     }
     for (std::size_t k = 0; k < order_.size(); ++k) {
         region_[order_[k]] = static_cast<std::int32_t>(k * count / order_.size());
+    }
+}
+
+/// Compact regions.
+void RegionSplitter::grow(Random& random, std::size_t count) {
+    const auto proposals = model_.proposals();
+    std::int32_t next = 0;
+    auto found = [&](Label i, std::int32_t region) {
+        if (region_[i] != kUnseen || !model_.is_proposed(i)) return;
+        region_[i] = region;
+        order_.push_back(i);
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+        found(proposals[random.below(static_cast<std::uint32_t>(proposals.size()))], next++);
+    }
+    std::size_t seen = 0;
+    for (std::size_t k = 0; seen < proposals.size(); ++seen) {
+        for (; k < order_.size(); ++k) {
+            visit_neighbours(order_[k], [&](Label j) { found(j, region_[order_[k]]); });
+        }
+        found(proposals[seen], static_cast<std::int32_t>(static_cast<std::size_t>(next++) % count));
+    }
+    work_ += static_cast<std::int64_t>(order_.size());
+}
+
+std::vector<std::vector<Label>> RegionSplitter::split(Random& random, std::size_t count) {
+    order_.clear();
+    region_.assign(model_.label_count(), kUnseen);
+    if (count == 2) {
+        cut(random, count);
+    } else {
+        grow(random, count);
     }
     std::vector<std::vector<Label>> regions(count);
     for (Label i : order_) {

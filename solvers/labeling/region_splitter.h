@@ -22,6 +22,8 @@ private:
     template <typename Visit>
     void visit_neighbours(Label i, const Visit& visit);
     void order_from(Label start);
+    void cut(Random& random, std::size_t count);
+    void grow(Random& random, std::size_t count);
 
     const SearchModel& model_;
     std::vector<Label> order_;

@@ -47,7 +47,9 @@ void SearchState::switch_off(Label i) {
     work_ += static_cast<std::int64_t>(neighbours.size() + 2 * partners.size() + 2 * uses.size());
     labels_[i] = 0;
     value_ -= nodes_[i].gain;
-    for (Label j : neighbours) --nodes_[j].blocker_count;
+    for (Label j : neighbours) {
+        if (--nodes_[j].blocker_count == 0 && kNotesBroken) freed_.push_back(j);
+    }
     for (const auto& b : partners) nodes_[b.label].gain -= b.value;
     for (const auto& use : uses) {
         excesses_[use.row] -= use.coefficient;
@@ -66,9 +68,21 @@ void SearchState::flip(Label i) {
     log_.push_back(i);
 }
 
+bool SearchState::fits(Label i) const {
+    if (nodes_[i].blocker_count > 0) return false;
+    for (const auto& use : model_.uses(i)) {
+        if (use.coefficient > 0 && excesses_[use.row] + use.coefficient > 0) return false;
+    }
+    for (const auto& pair : model_.triples(i)) {
+        if ((labels_[pair.first] & labels_[pair.second]) != 0) return false;
+    }
+    return true;
+}
+
 void SearchState::commit() {
     log_.clear();
     broken_rules_.clear();
+    freed_.clear();
 }
 
 void SearchState::roll_back() {
@@ -77,6 +91,7 @@ void SearchState::roll_back() {
         log_.pop_back();
     }
     broken_rules_.clear();
+    freed_.clear();
 }
 
 void SearchState::clear_marks() {

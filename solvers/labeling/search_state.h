@@ -45,6 +45,11 @@ public:
     /// Rules that a flip since the last commit() broke; entries may have been mended since. The
     /// caller pops.
     std::vector<BrokenRule>& broken_rules() { return broken_rules_; }
+    /// Labels whose last conflict partner was switched off since the last commit(); may have one
+    /// again.
+    std::span<const Label> freed() const { return freed_; }
+    /// Switching i on would break no conflict and no rule.
+    bool fits(Label i) const;
 
     void clear_marks();
     void mark(Label i) { nodes_[i].mark = mark_; }
@@ -75,6 +80,7 @@ private:
     std::vector<std::int64_t> excesses_;  ///< activity - right-hand side; violated when > 0
     std::vector<Label> log_;
     std::vector<BrokenRule> broken_rules_;
+    std::vector<Label> freed_;
     Value value_ = 0;
     std::int64_t work_ = 0;
     std::uint32_t mark_ = 1;
