@@ -4,7 +4,8 @@
 // Markdown table: mean and largest distance in percent to the best known value after each amount
 // of work, in how many runs it was reached, and processor seconds a run. A solver may be followed
 // by extra options of its own. --best names a file of lines `problem value`; better values met here
-// count too. --permute renames the labels by the seed.
+// count too. A run ends when the value in the file is reached. --permute renames the labels by the
+// seed.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -24,6 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 using labeling::LabelingProblem;
 using labeling::Value;
+
+constexpr double kSame = 1e-8;  ///< relative; files give four digits
+constexpr double kNoTarget = 1e300;
 
 struct Variant {
     std::string text;
@@ -119,7 +123,8 @@ double value_at(const labeling::SolveResult& result, std::int64_t work, double u
     return static_cast<double>(value) / units;
 }
 
-Row run_variant(const Arguments& arguments, const Variant& variant, const LabelingProblem& given) {
+Row run_variant(const Arguments& arguments, const Variant& variant, const LabelingProblem& given,
+                double target) {
     const labeling::SolverRegistry solvers = labeling_runs::every_solver();
     Row row;
     row.values.resize(arguments.checkpoints.size());
@@ -129,6 +134,12 @@ Row run_variant(const Arguments& arguments, const Variant& variant, const Labeli
         options.threads = arguments.threads;
         options.extra = variant.extra;
         options.work_limit = arguments.checkpoints.back();
+        std::stop_source source;
+        options.stop = source.get_token();
+        options.on_improvement = [&](const labeling::TracePoint& point) {
+            const double value = static_cast<double>(point.value.value_or(0));
+            if (value >= target * given.units_per_one()) source.request_stop();
+        };
         const LabelingProblem problem =
             arguments.is_permuted ? labeling_runs::renamed(given, options.seed) : LabelingProblem();
         const double before = labeling_runs::processor_seconds();
@@ -156,7 +167,7 @@ void print_row(const std::string& name, const Variant& variant, const Row& row, 
             const double gap = std::max(0.0, 100 * (best - value) / best);
             sum += gap / static_cast<double>(row.values[c].size());
             worst = std::max(worst, gap);
-            if (best - value < 1e-8 * best) ++reached;
+            if (best - value < kSame * best) ++reached;
         }
         std::printf(" %.4f | %.4f | %d |", sum, worst, reached);
         total.gap[c] += sum;
@@ -197,13 +208,14 @@ void run(const Arguments& arguments) {
         double best = known == arguments.best.end() ? 0 : known->second;
         std::vector<Row> rows;
         for (const Variant& variant : arguments.variants) {
-            rows.push_back(run_variant(arguments, variant, problem));
+            const double target = known == arguments.best.end() ? kNoTarget : known->second;
+            rows.push_back(run_variant(arguments, variant, problem, target * (1 - kSame)));
             for (double value : rows.back().values.back()) {
-                if (value <= best * (1 + 1e-8)) continue;
+                if (value <= best * (1 + kSame)) continue;
                 best = value;
             }
         }
-        if (known == arguments.best.end() || best > known->second * (1 + 1e-8)) {
+        if (known == arguments.best.end() || best > known->second * (1 + kSame)) {
             std::fprintf(stderr, "new best: %s %.4f\n", name.c_str(), best);
         }
         for (std::size_t v = 0; v < rows.size(); ++v) {
