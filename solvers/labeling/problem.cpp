@@ -190,7 +190,10 @@ LabelingProblem ProblemBuilder::build() {
     auto by_pair = [](const auto& a, const auto& b) {
         return std::pair(a.first, a.second) < std::pair(b.first, b.second);
     };
-    std::sort(p.conflicts_.begin(), p.conflicts_.end(), by_pair);
+    // Parts of a problem come in order.
+    if (!std::is_sorted(p.conflicts_.begin(), p.conflicts_.end(), by_pair)) {
+        std::sort(p.conflicts_.begin(), p.conflicts_.end(), by_pair);
+    }
     p.conflicts_.erase(std::unique(p.conflicts_.begin(), p.conflicts_.end()), p.conflicts_.end());
 
     std::vector<std::size_t> counts(n, 0);
@@ -205,7 +208,9 @@ LabelingProblem ProblemBuilder::build() {
     for (const Conflict& c : p.conflicts_) p.conflict_adjacency_[next[c.second]++] = c.first;
     for (const Conflict& c : p.conflicts_) p.conflict_adjacency_[next[c.first]++] = c.second;
 
-    std::stable_sort(input.bonuses_.begin(), input.bonuses_.end(), by_pair);
+    if (!std::is_sorted(input.bonuses_.begin(), input.bonuses_.end(), by_pair)) {
+        std::stable_sort(input.bonuses_.begin(), input.bonuses_.end(), by_pair);
+    }
     for (std::size_t k = 0; k < input.bonuses_.size();) {
         Bonus sum{input.bonuses_[k].first, input.bonuses_[k].second, 0};
         std::size_t entries = 0;
