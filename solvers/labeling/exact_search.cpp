@@ -21,6 +21,7 @@ namespace labeling {
 namespace {
 
 constexpr std::int64_t kDefaultWork = 300'000'000;
+constexpr Label kLarge = 20000;
 constexpr std::int64_t kFirstAllowance = 100'000;  ///< ticks per label of a part
 
 Value sum_of_positive(const LabelingProblem& problem) {
@@ -39,10 +40,11 @@ public:
           exact_(exact),
           techniques_(techniques_of(options, exact.name)),
           control_(options, exact.default_work_limit),
+          given_(first_solution()),
           reduced_(techniques_.reductions ? std::optional(reduce_problem(problem, control_))
                                           : std::nullopt),
           problem_(reduced_ ? reduced_->problem() : original_),
-          warm_start_(reduced_ ? reduced_->project(options.warm_start) : options.warm_start),
+          warm_start_(start_of_rest()),
           rows_(problem_),
           propagator_(problem_, rows_),
           decomposer_(problem_, rows_) {}
@@ -51,7 +53,6 @@ public:
         if (reduced_ && reduced_->is_infeasible()) return infeasible();
         if (!propagator_.propagate_all()) return infeasible();
         if (reduced_) offset_ = reduced_->offset();
-        take_warm_start();
         decided_ = decided_value(problem_, propagator_.values());
         labels_.assign(problem_.label_count(), 0);
         for (Label i = 0; i < problem_.label_count(); ++i) labels_[i] = propagator_.value(i) == 1;
@@ -121,15 +122,28 @@ private:
         return result;
     }
 
-    /// A complete feasible start counts as it is: reductions may have no place for it.
-    void take_warm_start() {
+    /// A complete feasible start counts as it is: reductions may have no place for it. A large
+    /// problem gets a greedy labeling at once, because even reducing it takes seconds.
+    std::optional<Solution> first_solution() {
         const auto& start = options_.warm_start;
-        if (!reduced_ || start.empty() || std::count(start.begin(), start.end(), -1) > 0) return;
-        Solution given{{start.begin(), start.end()}, 0};
-        given.value = labeling_value(original_, given.labels);
-        if (!check_solution(original_, given).is_feasible) return;
-        control_.report(given.value, std::nullopt);
-        given_ = std::move(given);
+        std::optional<Solution> first;
+        if (original_.label_count() > kLarge && techniques_.heuristics) {
+            GreedyOptions greedy;
+            greedy.start = start;
+            first = greedy_labeling(original_, RowSystem(original_), control_, greedy).solution;
+        } else if (!start.empty() && std::count(start.begin(), start.end(), -1) == 0) {
+            first.emplace(Solution{{start.begin(), start.end()}, 0});
+            first->value = labeling_value(original_, first->labels);
+            if (!check_solution(original_, *first).is_feasible) first.reset();
+        }
+        if (first) control_.report(first->value, std::nullopt);
+        return first;
+    }
+
+    std::vector<std::int8_t> start_of_rest() const {
+        std::vector<std::int8_t> start = options_.warm_start;
+        if (start.empty() && given_) start.assign(given_->labels.begin(), given_->labels.end());
+        return reduced_ ? reduced_->project(start) : start;
     }
 
     void add_reductions(SolveResult& result) const {
@@ -220,10 +234,10 @@ private:
     const ExactSearchOptions& exact_;
     const Techniques techniques_;
     RunControl control_;
+    const std::optional<Solution> given_;  ///< known before anything else is done
     const std::optional<ReducedProblem> reduced_;
     const LabelingProblem& problem_;  ///< what is left after reductions
     const std::vector<std::int8_t> warm_start_;
-    std::optional<Solution> given_;  ///< the warm start, if it was complete and feasible
     const RowSystem rows_;
     Propagator propagator_;
     Decomposer decomposer_;

@@ -34,6 +34,7 @@ void erase_key(std::vector<Entry>& entries, Key key, KeyOf key_of) {
 ReductionState::ReductionState(const LabelingProblem& problem)
     : problem_(problem),
       weights_(problem.weights().begin(), problem.weights().end()),
+      potentials_(weights_),
       conflicts_(problem.label_count()),
       bonuses_(problem.label_count()),
       uses_(problem.label_count()),
@@ -49,7 +50,11 @@ ReductionState::ReductionState(const LabelingProblem& problem)
         uses_[i].reserve(problem.rules_of(i).size());
         total_ += std::abs(problem.weight(i));
     }
-    for (const Bonus& b : problem.bonuses()) total_ += b.value;
+    for (const Bonus& b : problem.bonuses()) {
+        total_ += b.value;
+        potentials_[b.first] += b.value;
+        potentials_[b.second] += b.value;
+    }
     for (const Rule& rule : problem.rules()) {
         for (int sign : {1, -1}) {
             if (rule.relation == (sign > 0 ? Relation::GreaterEqual : Relation::LessEqual))
@@ -68,12 +73,6 @@ ReductionState::ReductionState(const LabelingProblem& problem)
     for (Label i = 0; i < label_count(); ++i) touch(i);
     work += 2 * static_cast<std::int64_t>(problem.conflict_count() + problem.bonus_count()) +
             label_count() + row_count();
-}
-
-Value ReductionState::potential(Label i) const {
-    Value sum = weights_[i];
-    for (const Partner& b : bonuses_[i]) sum += b.value;
-    return sum;
 }
 
 bool ReductionState::in_conflict(Label i, Label j) const {
@@ -187,7 +186,10 @@ void ReductionState::take_out(Label i, bool value) {
     if (value) {
         result_.offset_ += weights_[i];
         for (Label j : conflicts_[i]) fix(j, false);
-        for (const Partner& b : bonuses_[i]) weights_[b.label] += b.value;
+        for (const Partner& b : bonuses_[i]) {
+            weights_[b.label] += b.value;
+            potentials_[b.label] += b.value;
+        }
         for (const Use& use : uses_[i]) rows_[use.row].right_hand_side -= use.coefficient;
     }
     result_.steps_.push_back({Step::Kind::Fixed, i, value ? 1 : 0, 0, 0});
@@ -199,6 +201,7 @@ void ReductionState::remove(Label i) {
     for (const Partner& b : bonuses_[i]) {
         touch_around(b.label);  // its potential changed
         erase_key(bonuses_[b.label], i, kLabelOf);
+        potentials_[b.label] -= b.value;
     }
     for (Label j : conflicts_[i]) {
         erase_key(conflicts_[j], i, kLabelItself);
@@ -231,7 +234,9 @@ void ReductionState::grant_bonus(Label i, Label when) {
 
 void ReductionState::merge(Label i, Label into) {
     result_.steps_.push_back({Step::Kind::Equal, i, into, 0, 0});
-    weights_[into] += weights_[i] + bonus(i, into);
+    const Value gain = weights_[i] + bonus(i, into);
+    weights_[into] += gain;
+    potentials_[into] += gain;
     const std::vector<Partner> bonuses = bonuses_[i];
     const std::vector<Label> conflicts = conflicts_[i];
     const std::vector<Use> uses = uses_[i];
@@ -270,6 +275,7 @@ void ReductionState::put_use(Label i, std::int32_t r, std::int32_t coefficient) 
 void ReductionState::add_weight(Label i, Value change) {
     if (change == 0) return;
     weights_[i] += change;
+    potentials_[i] += change;
     touch_around(i);
 }
 
@@ -282,6 +288,7 @@ void ReductionState::add_bonus(Label i, Label j, Value change) {
 }
 
 void ReductionState::change_bonus(Label i, Label j, Value change) {
+    potentials_[i] += change;
     const auto place = place_of(bonuses_[i], j, kLabelOf);
     if (place == bonuses_[i].end() || place->label != j) {
         bonuses_[i].insert(place, {j, change});

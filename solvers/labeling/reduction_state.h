@@ -31,7 +31,7 @@ public:
     bool is_alive(Label i) const { return is_alive_[i] != 0; }
     Value weight(Label i) const { return weights_[i]; }
     /// Weight and all bonuses: the most that the label can bring.
-    Value potential(Label i) const;
+    Value potential(Label i) const { return potentials_[i]; }
     std::span<const Label> conflicts_of(Label i) const { return conflicts_[i]; }  ///< ascending
     std::span<const Partner> bonuses_of(Label i) const { return bonuses_[i]; }
     std::span<const Use> uses(Label i) const { return uses_[i]; }
@@ -96,7 +96,7 @@ private:
     void change_bonus(Label i, Label j, Value change);
 
     const LabelingProblem& problem_;
-    std::vector<Value> weights_;
+    std::vector<Value> weights_, potentials_;
     std::vector<std::vector<Label>> conflicts_;
     std::vector<std::vector<Partner>> bonuses_;
     std::vector<std::vector<Use>> uses_;

@@ -313,6 +313,14 @@ private:
     std::int64_t steps_ = 0;
 };
 
+/// nullopt also when the order takes much longer than those of narrow problems do.
+std::optional<EliminationOrder> short_order(const LabelingProblem& problem, const RowSystem& rows,
+                                            RunControl& control, EliminationRule rule) {
+    const std::int64_t per_label = rule == EliminationRule::Degree ? 30 : 500;
+    RunControl::Cap cap(control, 1000 + per_label * problem.label_count());
+    return elimination_order(problem, rows, control, rule);
+}
+
 }  // namespace
 
 std::optional<TreeResult> treewidth_search(const LabelingProblem& problem, RunControl& control,
@@ -325,7 +333,7 @@ std::optional<TreeResult> treewidth_search(const LabelingProblem& problem, RunCo
     RunControl::Cap cap(control, options.most_ticks + options.most_ticks / 2);
     const auto most = static_cast<double>(options.most_ticks);
     for (EliminationRule rule : {EliminationRule::Degree, EliminationRule::Fill}) {
-        const auto order = elimination_order(problem, rows, control, rule);
+        const auto order = short_order(problem, rows, control, rule);
         if (!order) break;
         TreewidthSearch search(problem, rows, control, *order);
         const double ticks = search.plan(options);

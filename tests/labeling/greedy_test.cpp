@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "labeling/errors.h"
+#include "labeling/generators.h"
 #include "labeling/label_heap.h"
 #include "labeling/problems.h"
 
@@ -76,6 +77,25 @@ TEST(GreedyRules, BestIsTheBetterOfGainAndBlocked) {
         const Value blocked = solve(problem, "blocked").solution->value;
         EXPECT_EQ(solve(problem, "best").solution->value, std::max(gain, blocked)) << seed;
     }
+}
+
+TEST(GreedyRules, GiveLargeProblemsALabelingBeforeAnythingElse) {
+    labeling::UnitDiskOptions disks;
+    disks.labels = 25000;
+    const LabelingProblem problem = labeling::unit_disks(disks).problem;
+    const SolveResult greedy = solve(problem, "gain");
+    SolveOptions options;
+    options.work_limit = greedy.work + 1;
+    const SolveResult exact = labeling::builtin_solvers().find("auto")->solve(problem, options);
+    ASSERT_TRUE(exact.solution);
+    EXPECT_GE(exact.solution->value, greedy.solution->value);
+    for (auto label : greedy.solution->labels) {
+        options.warm_start.push_back(static_cast<std::int8_t>(label));
+    }
+    options.work_limit = 0;
+    const SolveResult warm = labeling::builtin_solvers().find("auto")->solve(problem, options);
+    ASSERT_TRUE(warm.solution);
+    EXPECT_GE(warm.solution->value, greedy.solution->value);
 }
 
 TEST(GreedyRules, UnknownNamesAreRefused) {
