@@ -34,12 +34,23 @@ constexpr double kRestartHeat = 3.0;
 constexpr std::int64_t kFirstShare = 4;  ///< of the work, at most
 constexpr std::int64_t kLeastRound = 20000;
 constexpr double kPatience = 250;  ///< ticks per label without gain
-constexpr double kSplitSize = 1000;
+constexpr std::int64_t kSplitSize = 1000, kSplitDegree = 2;
 constexpr double kPatienceShare = 0.25;
 constexpr std::uint32_t kSmallestWindow = 100, kLargestWindow = 500;
+constexpr std::int64_t kLargeShare = 3, kSmallShare = 10;
 constexpr std::size_t kPoolSize = 6;
 constexpr double kCoreTicks = 100;  ///< per label of a difference
 constexpr int kCoreRounds = 3;
+
+/// Gain per tick, with the past discounted.
+struct RecentGain {
+    double gain = 0, cost = 0;
+    void add(double more_gain, double more_cost) {
+        gain = 0.9 * gain + more_gain;
+        cost = 0.9 * cost + more_cost;
+    }
+    double rate() const { return cost > 0 ? gain / cost : 0; }
+};
 
 class LocalSearch {
 public:
@@ -60,6 +71,7 @@ public:
 
     void run() {
         if (size_ == 0) return;
+        first_work_ = control_.work();
         while (!control_.should_stop()) {
             climb();
             if (!options_.restarts) continue;
@@ -98,6 +110,7 @@ private:
             const std::int64_t now = control_.work();
             schedule.credit(kind, static_cast<double>(climb_.value - value),
                             static_cast<double>(now - before));
+            intensify(static_cast<double>(climb_.value - value), static_cast<double>(now - before));
             if (climb_.value > value) last_gain = now;
             const double patience =
                 std::max(static_cast<double>(size_) * kPatience,
@@ -164,14 +177,20 @@ private:
         gather();
     }
 
-    bool is_split() const { return lanes_.size() > 1 && static_cast<double>(size_) > kSplitSize; }
+    /// On sparse problems gains add up without it, because differences fall apart.
+    bool is_split() const {
+        const LabelingProblem& problem = model_.problem();
+        return options_.regions && lanes_.size() > 1 && size_ > kSplitSize &&
+               static_cast<std::int64_t>(problem.conflict_count()) >
+                   kSplitDegree * problem.label_count();
+    }
 
     /// Each lane anneals a region of its own, so that all gains can be kept.
     void run_split(const ChainKind& kind) {
         const bool is_by_worth = options_.by_worth && random_.unit() < 0.5;
-        Chain chain{kReheats[kind.used % kReheats.size()],
-                    kColdLow + (kColdHigh - kColdLow) * random_.unit(), 0, is_by_worth};
-        anneal_regions(chain, kind.ticks);
+        const double coldest = kColdLow + (kColdHigh - kColdLow) * random_.unit();
+        anneal_regions({kReheats[kind.used % kReheats.size()], coldest, 0, is_by_worth},
+                       kind.ticks);
     }
 
     /// Several regions a lane where there are many labels: a small one stays in the cache.
@@ -204,11 +223,30 @@ private:
             for (std::size_t k = 1; k < lanes_.size(); ++k) lane.merge(lanes_.lane(k).best());
         });
         climb_ = lanes_.lane(0).best();
-        share();
+        share_best();
         note();
     }
 
-    void share() {
+    /// Lets the caller's search have what is due to it: more if it has gained more per tick of
+    /// late.
+    void intensify(double round_gain, double round_cost) {
+        if (!options_.intensify) return;
+        rounds_.add(round_gain, round_cost);
+        const std::int64_t share = outside_.rate() > rounds_.rate() ? kLargeShare : kSmallShare;
+        while (!control_.should_stop() && share * intensify_work_ < control_.work() - first_work_) {
+            const std::int64_t before = control_.work();
+            const Value value = climb_.value;
+            options_.intensify(climb_, pool_);
+            const std::int64_t work = control_.work() - before + 1;
+            intensify_work_ += work;
+            outside_.add(static_cast<double>(climb_.value - value), static_cast<double>(work));
+            if (climb_.value == value) continue;
+            share_best();
+            note();
+        }
+    }
+
+    void share_best() {
         for (std::size_t k = 0; k < lanes_.size(); ++k) lanes_.lane(k).adopt(climb_);
     }
 
@@ -226,7 +264,7 @@ private:
                 const Value before = climb_.value;
                 lanes_.run(1, [&](Annealer& lane, std::size_t) { lane.merge(other); });
                 climb_ = lanes_.lane(0).best();
-                share();
+                share_best();
                 std::vector<Label> core;
                 for (Label i : model_.proposals()) {
                     if (climb_.labels[i] != other.labels[i]) core.push_back(i);
@@ -266,7 +304,8 @@ private:
     const std::int64_t size_;
     Solution best_, climb_;
     std::vector<Solution> pool_;
-    std::int64_t climbs_ = 0, recombined_ = 0;
+    RecentGain rounds_, outside_;
+    std::int64_t climbs_ = 0, recombined_ = 0, first_work_ = 0, intensify_work_ = 0;
 };
 
 struct Switch {
@@ -275,6 +314,7 @@ struct Switch {
 };
 
 constexpr std::array kSwitches{
+    Switch{"regions", &LocalSearchOptions::regions},
     Switch{"windows", &LocalSearchOptions::windows},
     Switch{"adaptive", &LocalSearchOptions::adaptive},
     Switch{"by-worth", &LocalSearchOptions::by_worth},
@@ -283,21 +323,16 @@ constexpr std::array kSwitches{
 };
 
 LocalSearchOptions search_options(const SolveOptions& options, std::string_view solver) {
-    require_known_extras(
-        options, solver,
-        {"first-chain", "lanes", "windows", "adaptive", "by-worth", "restarts", "recombination"});
+    require_known_extras(options, solver,
+                         {"first-chain", "lanes", "regions", "windows", "adaptive", "by-worth",
+                          "restarts", "recombination"});
     LocalSearchOptions search;
     search.seed = options.seed;
     search.threads = options.threads;
     search.lanes = static_cast<int>(extra_integer(options, "lanes", search.lanes, 1, 16));
     search.first_chain = extra_integer(options, "first-chain", 0, 0, std::int64_t{1} << 40);
     for (const Switch& s : kSwitches) {
-        const auto it = options.extra.find(s.key);
-        if (it == options.extra.end()) continue;
-        if (it->second != "on" && it->second != "off") {
-            throw InputError("option " + it->first + ": '" + it->second + "' is not on or off");
-        }
-        search.*s.field = it->second == "on";
+        search.*s.field = extra_switch(options, s.key, search.*s.field);
     }
     return search;
 }

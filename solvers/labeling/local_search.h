@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "labeling/problem.h"
 #include "labeling/rows.h"
@@ -24,11 +25,16 @@ struct LocalSearchOptions {
     double start_temperature = 3.0;
 
     // Techniques; each is an extra option of the same name with '-' for '_', on or off.
+    bool regions = true;        ///< lanes anneal regions of their own where that pays
     bool windows = true;        ///< chains over windows of connected labels
     bool adaptive = true;       ///< learn which kind of chain pays; off: any
     bool by_worth = true;       ///< some chains are hotter where labels are worth more
     bool restarts = true;       ///< climb anew when a climb comes to nothing
     bool recombination = true;  ///< of a climb's end with those before
+
+    /// Gets a third to a tenth of the work, if given: may improve the labeling; the others are the
+    /// ends of earlier climbs. Spends its work on the same control.
+    std::function<void(Solution&, std::span<const Solution>)> intensify;
 };
 
 struct LocalSearchStatistics {

@@ -1,10 +1,10 @@
-// Large-neighbourhood search (Shaw 1998) with exact windows. All labels outside of a window stay as
-// they are in the best labeling; what propagation leaves open falls into parts, and each is solved
-// by the exact search with the present value as its lower limit. A window is a breadth-first ball
-// over bonuses, conflicts and small rules around a random label, or around the labels that
-// annealing has just changed for the better, since one improvement often makes room for another.
-// The size adapts: windows that are solved at once grow, windows that run out of their allowance
-// shrink. Annealing takes a share of the work because it crosses distances that no window spans.
+// Large-neighbourhood search (Shaw 1998) with exact windows, inside of the local search, which
+// finds what no window spans and keeps the ends of its climbs. All labels outside of a window stay
+// as they are in the present labeling; what propagation leaves open falls into parts, and each is
+// solved by the exact search with the present value as its lower limit. A window is a breadth-first
+// ball over bonuses, conflicts and small rules around a random label, or within the labels in which
+// the present labeling differs from an earlier climb's end: there one of two good searches erred.
+// The size adapts: windows that are solved grow, windows that run out of their allowance shrink.
 #include "labeling/neighbourhood_search.h"
 
 #include <algorithm>
@@ -20,11 +20,8 @@ namespace labeling {
 namespace {
 
 constexpr double kSmallestWindow = 30, kFirstWindow = 60, kLargestWindow = 1000;
-constexpr std::int64_t kWindowTicks = 400'000;
+constexpr std::int64_t kWindowTicks = 400000;
 constexpr std::size_t kLongestRow = 8;
-constexpr int kWindowsPerChain = 6;
-constexpr std::int64_t kChainTicks = 400;   ///< per label
-constexpr std::int64_t kStartTicks = 1000;  ///< of local search, per label
 
 class NeighbourhoodSearch {
 public:
@@ -40,20 +37,22 @@ public:
           is_consistent_(propagator_.propagate_all()),
           base_(propagator_.trail().size()),
           in_window_(problem.label_count(), 0),
+          is_different_(problem.label_count(), 0),
           best_(std::move(start)) {}
 
-    void run() {
-        if (!is_consistent_ || propagator_.free_count() == 0) return;
-        for (std::uint64_t round = 0; !control_.should_stop(); ++round) {
-            for (int k = 0; k < kWindowsPerChain && !control_.should_stop(); ++k) {
-                collect_ball({random_label()}, static_cast<std::size_t>(window_size_));
-                solve_window();
-            }
-            anneal(round);
+    Solution run() {
+        LocalSearchOptions search;
+        search.seed = options_.seed;
+        search.threads = options_.threads;
+        if (is_consistent_ && propagator_.free_count() > 0) {
+            search.intensify = [this](Solution& present, std::span<const Solution> others) {
+                improve(present, others);
+            };
         }
+        return improve_labeling(problem_, rows_, control_, std::move(best_), search,
+                                options_.report);
     }
 
-    Solution take_best() { return std::move(best_); }
     NeighbourhoodSearchStatistics statistics;
 
 private:
@@ -62,15 +61,51 @@ private:
             random_.below(static_cast<std::uint32_t>(problem_.label_count())));
     }
 
-    /// Breadth-first around `window`.
-    void collect_ball(std::vector<Label> seeds, std::size_t size) {
+    /// One window of the present labeling.
+    void improve(Solution& present, std::span<const Solution> others) {
+        std::swap(best_, present);
+        std::vector<Label> difference;
+        if (options_.differences && !others.empty() && random_.below(2) == 0) {
+            const Solution& other =
+                others[random_.below(static_cast<std::uint32_t>(others.size()))];
+            for (Label i = 0; i < problem_.label_count(); ++i) {
+                if (other.labels[i] != best_.labels[i]) difference.push_back(i);
+            }
+            control_.spend(problem_.label_count() / 64);
+        }
+        if (difference.empty()) {
+            collect_ball(random_label(), window_size_, {});
+            solve_window(window_size_);
+        } else {
+            const auto count = static_cast<std::uint32_t>(difference.size());
+            collect_ball(difference[random_.below(count)], difference_size_, difference);
+            ++statistics.differences;
+            solve_window(difference_size_);
+        }
+        std::swap(best_, present);
+    }
+
+    /// Breadth-first around the label; labels of the difference, if any, come before others.
+    void collect_ball(Label start, double most, std::span<const Label> difference) {
+        const auto size = static_cast<std::size_t>(most);
+        for (Label i : difference) is_different_[i] = 1;
         window_.clear();
+        bool is_open = difference.empty();
         auto add = [&](Label i) {
             if (in_window_[i] != 0 || window_.size() >= size || !propagator_.is_free(i)) return;
+            if (!is_open && is_different_[i] == 0) return;
             in_window_[i] = 1;
             window_.push_back(i);
         };
-        for (Label i : seeds) add(i);
+        add(start);
+        spread(size, add);
+        is_open = true;
+        spread(size, add);
+        for (Label i : difference) is_different_[i] = 0;
+    }
+
+    template <typename Add>
+    void spread(std::size_t size, const Add& add) {
         std::int64_t entries = 0;
         for (std::size_t k = 0; k < window_.size() && window_.size() < size; ++k) {
             const Label i = window_[k];
@@ -86,8 +121,9 @@ private:
         control_.spend(1 + entries / 16);
     }
 
-    void solve_window() {
-        if (window_.empty() || control_.should_stop()) return;
+    /// Adapts `size` by how it went.
+    void solve_window(double& size) {
+        if (window_.empty()) return;
         ++statistics.windows;
         const std::int64_t before = propagator_.work();
         bool is_possible = true;
@@ -101,7 +137,7 @@ private:
         const bool is_solved = !is_possible || solve_parts();
         if (is_solved) ++statistics.solved;
         const double factor = is_solved ? 1.1 : 0.7;
-        window_size_ = std::clamp(window_size_ * factor, kSmallestWindow, kLargestWindow);
+        size = std::clamp(size * factor, kSmallestWindow, kLargestWindow);
         propagator_.undo(base_);
         for (Label i : window_) in_window_[i] = 0;
         control_.spend(1 + (propagator_.work() - before + 2 * problem_.label_count()) / 16);
@@ -131,31 +167,8 @@ private:
             best_.value += value - present.value;
         }
         control_.spend((decomposer_.work() - before) / 16);
-        if (is_better) {
-            ++statistics.improved;
-            if (options_.report) options_.report(best_.value);
-        }
+        if (is_better) ++statistics.improved;
         return is_solved;
-    }
-
-    /// A chain from the best; where it ends differently is the next window.
-    void anneal(std::uint64_t round) {
-        if (control_.should_stop()) return;
-        RunControl::Cap cap(control_, kChainTicks * problem_.label_count());
-        LocalSearchOptions search;
-        search.seed = options_.seed * 1000003 + round;
-        search.start_temperature = round % 2 == 0 ? 0.8 : 1.6;
-        search.first_chain = kChainTicks * problem_.label_count() / 2;
-        const Solution other = improve_labeling(problem_, rows_, control_, best_, search);
-        if (other.value <= best_.value) return;
-        std::vector<Label> changed;
-        for (Label i = 0; i < problem_.label_count(); ++i) {
-            if (other.labels[i] != best_.labels[i]) changed.push_back(i);
-        }
-        best_ = other;
-        if (options_.report) options_.report(best_.value);
-        collect_ball(changed, std::max(changed.size(), static_cast<std::size_t>(window_size_)));
-        solve_window();
     }
 
     const LabelingProblem& problem_;
@@ -167,10 +180,10 @@ private:
     Decomposer decomposer_;
     const bool is_consistent_;
     const std::size_t base_;
-    std::vector<std::uint8_t> in_window_;
+    std::vector<std::uint8_t> in_window_, is_different_;
     std::vector<Label> window_;
     Solution best_;
-    double window_size_ = kFirstWindow;
+    double window_size_ = kFirstWindow, difference_size_ = kFirstWindow;
 };
 
 class LnsSolver final : public Solver {
@@ -178,12 +191,12 @@ public:
     explicit LnsSolver(LpFactory lp) : lp_(std::move(lp)) {}
     std::string name() const override { return "lns"; }
     std::string description() const override {
-        return "local search, then exact search in windows of the best labeling";
+        return "local search with exact search in windows and where good labelings differ";
     }
     bool is_exact() const override { return false; }
     SolveResult solve(const LabelingProblem& problem, const SolveOptions& options) const override {
         require_valid_options(problem, options);
-        require_known_extras(options, name(), {});
+        require_known_extras(options, name(), {"differences"});
         std::optional<std::int64_t> work;
         if (!options.time_limit) work = 200'000'000;
         RunControl control(options, work);
@@ -195,20 +208,15 @@ public:
         if (found.solution) {
             const auto report = [&control](Value value) { control.report(value, std::nullopt); };
             report(found.solution->value);
-            {
-                RunControl::Cap cap(control, kStartTicks * problem.label_count());
-                LocalSearchOptions search;
-                search.seed = options.seed;
-                found.solution = improve_labeling(problem, rows, control,
-                                                  std::move(*found.solution), search, report);
-            }
-            found.solution =
-                search_neighbourhoods(problem, rows, control, std::move(*found.solution),
-                                      {lp_, options.seed, report}, &statistics);
+            NeighbourhoodSearchOptions search{lp_, options.seed, options.threads, true, report};
+            search.differences = extra_switch(options, "differences", true);
+            found.solution = search_neighbourhoods(problem, rows, control,
+                                                   std::move(*found.solution), search, &statistics);
         }
         SolveResult result = finish(problem, name(), control, std::move(found.solution),
                                     std::nullopt, found.is_infeasible);
         result.statistics["windows"] = static_cast<double>(statistics.windows);
+        result.statistics["windows-in-differences"] = static_cast<double>(statistics.differences);
         result.statistics["windows-solved"] = static_cast<double>(statistics.solved);
         result.statistics["windows-improved"] = static_cast<double>(statistics.improved);
         return result;
@@ -225,9 +233,9 @@ Solution search_neighbourhoods(const LabelingProblem& problem, const RowSystem& 
                                const NeighbourhoodSearchOptions& options,
                                NeighbourhoodSearchStatistics* statistics) {
     NeighbourhoodSearch search(problem, rows, control, std::move(start), options);
-    search.run();
+    Solution best = search.run();
     if (statistics != nullptr) *statistics = search.statistics;
-    return search.take_best();
+    return best;
 }
 
 std::shared_ptr<const Solver> make_lns_solver(LpFactory lp) {

@@ -101,6 +101,15 @@ std::int64_t extra_integer(const SolveOptions& options, std::string_view key, st
     return number;
 }
 
+bool extra_switch(const SolveOptions& options, std::string_view key, bool fallback) {
+    const auto it = options.extra.find(std::string(key));
+    if (it == options.extra.end()) return fallback;
+    if (it->second != "on" && it->second != "off") {
+        throw InputError("option " + it->first + ": '" + it->second + "' is not on or off");
+    }
+    return it->second == "on";
+}
+
 void require_valid_options(const LabelingProblem& problem, const SolveOptions& options) {
     const auto& start = options.warm_start;
     if (!start.empty() && start.size() != static_cast<std::size_t>(problem.label_count())) {

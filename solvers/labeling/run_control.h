@@ -92,6 +92,9 @@ void require_known_extras(const SolveOptions& options, std::string_view solver,
 std::int64_t extra_integer(const SolveOptions& options, std::string_view key, std::int64_t fallback,
                            std::int64_t low, std::int64_t high);
 
+/// Value of an extra option that is on or off, or `fallback`; throws InputError on another value.
+bool extra_switch(const SolveOptions& options, std::string_view key, bool fallback);
+
 /// Throws InputError when the warm start has the wrong length or an entry other than -1, 0, 1, or
 /// a limit is negative or not a number.
 void require_valid_options(const LabelingProblem& problem, const SolveOptions& options);
