@@ -4,16 +4,25 @@
 // are the linear program's, rounded to integers; what they prove is computed again in exact
 // integers before a line is written, so rounding costs strength, never truth. The sum contradicts
 // the leaf's decisions, which gives a clause by propagation; two children's clauses give their
-// parent's. Cuts, reductions and local search stay outside: they are either expressible at a price
-// in lines (cuts) or of no use in a proof (heuristics), so the tree here is larger than that of
+// parent's. At the root clique cuts come first: each pair of a clique's literals is a line, since
+// propagation contradicts both together, and adding the literals one by one, dividing after each,
+// gives "at most one". Other cuts, reductions and local search stay outside: they are either
+// expressible at a price in lines or of no use in a proof, so the tree here is larger than that of
 // branch and cut.
 #include "labeling/proving_search.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
 #include <vector>
 
+#include "labeling/clique_cuts.h"
 #include "labeling/errors.h"
+#include "labeling/propagation.h"
+#include "labeling/rows.h"
+#include "labeling/term_graph.h"
 
 namespace labeling {
 namespace {
@@ -25,6 +34,7 @@ constexpr Value kLargestSum = Value{1} << 50;
 constexpr Value kLargestScale = Value{1} << 20;
 /// Multipliers of an infeasible program have no scale of their own.
 constexpr double kRayScale = 1 << 20;
+constexpr int kMostRounds = 40;
 
 /// A row as the linear program has it, sum <= right_hand_side, and its number in the proof.
 struct LpRow {
@@ -88,6 +98,7 @@ public:
 
     ProofResult run(const std::optional<Solution>& known) {
         if (known) improve(known->labels);
+        cut_root();
         const std::int64_t id = prove();
         ProofResult result;
         result.nodes = nodes_;
@@ -151,6 +162,80 @@ private:
         if (column < 0 && outcome == LpEngine::Outcome::Optimal && found_better()) return prove();
         return branch(column >= 0 ? column : first_free());
     }
+
+    // ---- root -------------------------------------------------------------------------------
+
+    /// Columns count from 1; negative: the label is off.
+    using Literal = std::int32_t;
+
+    void cut_root() {
+        const RowSystem rows(problem_);
+        Propagator propagator(problem_, rows);
+        if (!propagator.propagate_all()) return;
+        const TermGraph graph(problem_, propagator);
+        CliqueSeparator separator(problem_, graph);
+        double last = std::numeric_limits<double>::infinity();
+        for (int round = 0, stalled = 0; round < kMostRounds && stalled < 3; ++round) {
+            if (must_stop() || engine_->solve(1'000'000) != LpEngine::Outcome::Optimal) break;
+            const auto x = engine_->columns();
+            double bound = 0;
+            for (std::int32_t c = 0; c < model_.column_count(); ++c) {
+                bound += static_cast<double>(model_.objective[c]) * x[c];
+            }
+            if (best_ && bound < static_cast<double>(best_->value) + 1 - kIntegral) break;
+            stalled = last - bound < 1e-5 * std::abs(bound) ? stalled + 1 : 0;
+            last = bound;
+            const std::vector<Cut> cuts = separator.separate(x, {});
+            if (cuts.empty()) break;
+            for (const Cut& cut : cuts) derive(cut);
+        }
+        for (const auto& [pair, id] : pairs_) out_ += "del id " + std::to_string(id) + "\n";
+        pairs_.clear();
+    }
+
+    /// A clique row: its literals, at most one of which is true.
+    void derive(const Cut& cut) {
+        std::vector<Literal> literals;
+        LpRow row;
+        for (const Cut::Entry& e : cut.entries) {
+            if (std::abs(e.coefficient) != 1) return;
+            literals.push_back(e.coefficient > 0 ? e.column + 1 : -(e.column + 1));
+            row.terms.push_back({e.coefficient, e.column});
+        }
+        if (literals.size() < 2) return;
+        row.right_hand_side = cut.right_hand_side;
+        std::vector<std::int64_t> ids;  // by the later literal, then the earlier one
+        for (std::size_t b = 1; b < literals.size(); ++b) {
+            for (std::size_t a = 0; a < b; ++a) ids.push_back(pair_id(literals[a], literals[b]));
+        }
+        out_ += "pol " + std::to_string(ids[0]);
+        for (std::size_t b = 2, k = 1; b < literals.size(); ++b) {
+            const std::string count = std::to_string(b);
+            if (b > 2) out_ += " " + std::to_string(b - 1) + " *";
+            for (std::size_t a = 0; a < b; ++a) out_ += " " + std::to_string(ids[k++]) + " +";
+            out_ += " " + count + " d";
+        }
+        out_ += "\n";
+        row.id = ++last_id_;
+        std::vector<LpEngine::Entry> entries;
+        for (const ModelTerm& t : row.terms) {
+            entries.push_back({t.column, static_cast<double>(t.coefficient)});
+        }
+        engine_->add_row(entries, static_cast<double>(row.right_hand_side));
+        rows_.push_back(std::move(row));
+    }
+
+    std::int64_t pair_id(Literal a, Literal b) {
+        const auto [it, is_new] = pairs_.try_emplace(std::minmax(a, b), last_id_ + 1);
+        if (is_new) {
+            out_ += "rup 1 " + literal(std::abs(a) - 1, a < 0) + " 1 " +
+                    literal(std::abs(b) - 1, b < 0) + " >= 1 ;\n";
+            ++last_id_;
+        }
+        return it->second;
+    }
+
+    // ---- tree -------------------------------------------------------------------------------
 
     std::int64_t branch(std::int32_t column) {
         // Every label decided: the rows themselves, or "better", contradict by propagation.
@@ -294,7 +379,8 @@ private:
     const ProofOptions& options_;
     const LinearModel model_;
     std::int64_t last_id_ = 0;
-    const std::vector<LpRow> rows_;
+    std::vector<LpRow> rows_;                                    ///< of the model, then cuts
+    std::map<std::pair<Literal, Literal>, std::int64_t> pairs_;  ///< numbers of their lines
     std::unique_ptr<LpEngine> engine_;
     std::vector<std::int8_t> fixed_;
     std::vector<bool> is_used_;  ///< columns that the OPB file mentions
