@@ -13,8 +13,8 @@
 
 #include "labeling/chain_schedule.h"
 #include "labeling/errors.h"
-#include "labeling/greedy.h"
 #include "labeling/random.h"
+#include "labeling/reduced_search.h"
 #include "labeling/region_splitter.h"
 #include "labeling/search_lanes.h"
 
@@ -324,8 +324,8 @@ constexpr std::array kSwitches{
 
 LocalSearchOptions search_options(const SolveOptions& options, std::string_view solver) {
     require_known_extras(options, solver,
-                         {"first-chain", "lanes", "regions", "windows", "adaptive", "by-worth",
-                          "restarts", "recombination"});
+                         {"first-chain", "lanes", "reductions", "regions", "windows", "adaptive",
+                          "by-worth", "restarts", "recombination"});
     LocalSearchOptions search;
     search.seed = options.seed;
     search.threads = options.threads;
@@ -351,17 +351,14 @@ public:
         std::optional<std::int64_t> work;
         if (!options.time_limit) work = 100'000'000;
         RunControl control(options, work);
-        const RowSystem rows(problem);
-        GreedyOptions greedy;
-        greedy.start = options.warm_start;
-        GreedyResult found = greedy_labeling(problem, rows, control, greedy);
         LocalSearchStatistics statistics;
-        if (found.solution) {
-            auto report = [&control](Value value) { control.report(value, std::nullopt); };
-            report(found.solution->value);
-            found.solution = improve_labeling(problem, rows, control, std::move(*found.solution),
-                                              search, report, &statistics);
-        }
+        auto found =
+            search_reduced(problem, options, control, extra_switch(options, "reductions", true),
+                           [&](const LabelingProblem& rest, const RowSystem& rows, Solution start,
+                               const std::function<void(Value)>& report) {
+                               return improve_labeling(rest, rows, control, std::move(start),
+                                                       search, report, &statistics);
+                           });
         SolveResult result = finish(problem, name(), control, std::move(found.solution),
                                     std::nullopt, found.is_infeasible);
         result.statistics["moves"] = static_cast<double>(statistics.moves);

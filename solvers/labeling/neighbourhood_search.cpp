@@ -14,6 +14,7 @@
 #include "labeling/part_search.h"
 #include "labeling/propagation.h"
 #include "labeling/random.h"
+#include "labeling/reduced_search.h"
 #include "labeling/subproblem.h"
 
 namespace labeling {
@@ -196,23 +197,21 @@ public:
     bool is_exact() const override { return false; }
     SolveResult solve(const LabelingProblem& problem, const SolveOptions& options) const override {
         require_valid_options(problem, options);
-        require_known_extras(options, name(), {"differences"});
+        require_known_extras(options, name(), {"differences", "reductions"});
         std::optional<std::int64_t> work;
         if (!options.time_limit) work = 200'000'000;
         RunControl control(options, work);
-        const RowSystem rows(problem);
-        GreedyOptions greedy;
-        greedy.start = options.warm_start;
-        GreedyResult found = greedy_labeling(problem, rows, control, greedy);
         NeighbourhoodSearchStatistics statistics;
-        if (found.solution) {
-            const auto report = [&control](Value value) { control.report(value, std::nullopt); };
-            report(found.solution->value);
-            NeighbourhoodSearchOptions search{lp_, options.seed, options.threads, true, report};
-            search.differences = extra_switch(options, "differences", true);
-            found.solution = search_neighbourhoods(problem, rows, control,
-                                                   std::move(*found.solution), search, &statistics);
-        }
+        auto found =
+            search_reduced(problem, options, control, extra_switch(options, "reductions", true),
+                           [&](const LabelingProblem& rest, const RowSystem& rows, Solution start,
+                               const std::function<void(Value)>& report) {
+                               NeighbourhoodSearchOptions search{
+                                   lp_, options.seed, options.threads,
+                                   extra_switch(options, "differences", true), report};
+                               return search_neighbourhoods(rest, rows, control, std::move(start),
+                                                            search, &statistics);
+                           });
         SolveResult result = finish(problem, name(), control, std::move(found.solution),
                                     std::nullopt, found.is_infeasible);
         result.statistics["windows"] = static_cast<double>(statistics.windows);

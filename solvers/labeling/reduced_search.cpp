@@ -1,0 +1,70 @@
+#include "labeling/reduced_search.h"
+
+#include <algorithm>
+
+#include "labeling/greedy.h"
+#include "labeling/reductions.h"
+
+namespace labeling {
+namespace {
+
+/// Reductions get so much of the work, at most.
+constexpr std::int64_t kReductionShare = 8;
+
+std::optional<Solution> greedy_start(const LabelingProblem& problem, const RowSystem& rows,
+                                     RunControl& control, std::span<const std::int8_t> labels,
+                                     ReducedSearchResult& result) {
+    GreedyOptions greedy;
+    greedy.start = labels;
+    GreedyResult found = greedy_labeling(problem, rows, control, greedy);
+    result.is_infeasible = found.is_infeasible;
+    return std::move(found.solution);
+}
+
+}  // namespace
+
+ReducedSearchResult search_reduced(const LabelingProblem& problem, const SolveOptions& options,
+                                   RunControl& control, bool is_reducing, const Improve& improve) {
+    ReducedSearchResult result;
+    std::optional<Solution> given;
+    if (!is_reducing || !options.warm_start.empty()) {
+        const RowSystem rows(problem);
+        given = greedy_start(problem, rows, control, options.warm_start, result);
+        if (given) control.report(given->value, std::nullopt);
+        if (!given || !is_reducing) {
+            const auto report = [&](Value value) { control.report(value, std::nullopt); };
+            if (given) result.solution = improve(problem, rows, std::move(*given), report);
+            return result;
+        }
+    }
+    std::optional<ReducedProblem> reduced;
+    {
+        RunControl::Cap cap(control, control.work_left() / kReductionShare);
+        reduced = reduce_problem(problem, control);
+    }
+    if (reduced->is_infeasible()) {
+        result.is_infeasible = true;
+        return result;
+    }
+    std::vector<std::int8_t> start;
+    if (given) {
+        start.assign(given->labels.begin(), given->labels.end());
+        start = reduced->project(start);
+    }
+    const RowSystem rows(reduced->problem());
+    std::optional<Solution> found = greedy_start(reduced->problem(), rows, control, start, result);
+    if (found) {
+        const auto report = [&](Value value) {
+            control.report(value + reduced->offset(), std::nullopt);
+        };
+        report(found->value);
+        *found = improve(reduced->problem(), rows, std::move(*found), report);
+        result.solution = reduced->lift(problem, *found);
+    }
+    if (given && (!result.solution || result.solution->value < given->value)) {
+        result.solution = std::move(given);
+    }
+    return result;
+}
+
+}  // namespace labeling

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "labeling/problem.h"
+#include "labeling/rows.h"
+#include "labeling/run_control.h"
+#include "labeling/solution.h"
+#include "labeling/solver.h"
+
+namespace labeling {
+
+struct ReducedSearchResult {
+    std::optional<Solution> solution;
+    bool is_infeasible = false;  ///< proven
+};
+
+/// Improves a feasible labeling of the problem given; reports better values of it.
+using Improve = std::function<Solution(const LabelingProblem& problem, const RowSystem& rows,
+                                       Solution start, const std::function<void(Value)>& report)>;
+
+/// The frame of the heuristics: reductions (unless switched off), greedy, `improve` on what is
+/// left, lifting. Never worse than a feasible warm start.
+ReducedSearchResult search_reduced(const LabelingProblem& problem, const SolveOptions& options,
+                                   RunControl& control, bool is_reducing, const Improve& improve);
+
+}  // namespace labeling
