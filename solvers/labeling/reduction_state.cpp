@@ -18,6 +18,8 @@ auto place_of(std::vector<Entry>& entries, Key key, KeyOf key_of) {
 }
 
 constexpr std::int8_t kMoved = 2;
+/// What making and emptying the lists of a label costs, in entries.
+constexpr std::int64_t kEntriesPerLabel = 100;
 
 const auto kLabelItself = [](Label i) { return i; };
 const auto kLabelOf = [](const auto& entry) { return entry.label; };
@@ -72,7 +74,7 @@ ReductionState::ReductionState(const LabelingProblem& problem)
     for (std::int32_t r = 0; r < row_count(); ++r) touch_row(r);
     for (Label i = 0; i < label_count(); ++i) touch(i);
     work += 2 * static_cast<std::int64_t>(problem.conflict_count() + problem.bonus_count()) +
-            label_count() + row_count();
+            kEntriesPerLabel * label_count() + row_count();
 }
 
 bool ReductionState::in_conflict(Label i, Label j) const {
