@@ -124,8 +124,10 @@ private:
     }
 
     NodeOutcome cut_root() {
+        relaxation_.set_drops_tight_rows(true);
         double last = 0;
-        int stalled = 0, gomory_rounds = 0;
+        int stalled = 0;
+        std::vector<double> gomory_bounds;  ///< before each round of Gomory cuts
         for (int round = 0;; ++round) {
             const auto lp = relaxation_.solve(control_, kNoIterationLimit);
             statistics.lp_iterations += relaxation_.engine().iterations();
@@ -153,16 +155,24 @@ private:
             intensify();
             if (is_prunable(root_bound_)) return NodeOutcome::Pruned;
             std::size_t added = rules;
-            if (stalled < 3) added += add_cliques({}) + add_triples();
+            if (stalled < 3) added += add_cliques(root_clique_options()) + add_triples();
             if (added == 0 || stalled >= 2) {
-                if (gomory_rounds++ >= kMostGomoryRounds || stalled > 8) {
-                    return NodeOutcome::Branch;
-                }
-                added += add_gomory();
+                gomory_bounds.push_back(bound);
+                if (is_over_gomory(gomory_bounds, gap) || stalled > 8) return NodeOutcome::Branch;
+                added += add_gomory(gap);
             }
             if (added == 0) return NodeOutcome::Branch;
-            if (round % 5 == 4) relaxation_.drop_slack_rows(4);
+            const int age = is_large() ? 2 : 4;
+            if (round % (age + 1) == age) relaxation_.drop_idle_rows(age);
         }
+    }
+
+    /// The last rounds of Gomory cuts closed less of the gap than as much work in the tree would.
+    static bool is_over_gomory(const std::vector<double>& bounds, double gap) {
+        if (bounds.size() > kMostGomoryRounds) return true;
+        if (bounds.size() <= kGomoryPatience) return false;
+        const double before = bounds[bounds.size() - 1 - kGomoryPatience];
+        return before - bounds.back() < kGomoryGain * static_cast<double>(kGomoryPatience) * gap;
     }
 
     std::size_t add_cliques(const CliqueCutOptions& options) {
@@ -189,16 +199,31 @@ private:
         return added;
     }
 
-    std::size_t add_gomory() {
+    /// Sparse cuts first; denser ones, which slow the LP down, only where these run dry and the gap
+    /// will take a large tree.
+    std::size_t add_gomory(double gap) {
         if (!options_.techniques.gomory_cuts) return 0;
         std::int64_t work = 0;
         std::size_t added = 0;
-        for (Cut& cut : gomory_cuts(relaxation_, {}, work)) {
-            added += relaxation_.add(std::move(cut)) ? 1 : 0;
+        while (true) {
+            for (Cut& cut : gomory_cuts(relaxation_, gomory_options_, work)) {
+                added += relaxation_.add(std::move(cut)) ? 1 : 0;
+            }
+            const bool may_be_dense = gap > kDenseGap * std::abs(static_cast<double>(best_value_));
+            if (added > 0 || !may_be_dense || gomory_options_.max_entries > kMostEntries / 2) break;
+            gomory_options_.max_entries *= 2;
         }
         charge(work);
         statistics.gomory_cuts += static_cast<std::int64_t>(added);
         return added;
+    }
+
+    bool is_large() const { return relaxation_.column_count() > kLargeColumns; }
+
+    CliqueCutOptions root_clique_options() const {
+        CliqueCutOptions options;
+        if (is_large()) options.max_cuts = 2000;
+        return options;
     }
 
     /// Rows left out of the LP that its solution violates: dropped ones and rules.
@@ -359,7 +384,8 @@ private:
 
     void search_tree() {
         root_size_ = state_.size();
-        relaxation_.drop_slack_rows(1);
+        relaxation_.set_drops_tight_rows(false);
+        relaxation_.drop_idle_rows(1);
         tree_rows_ = relaxation_.row_count();
         Node current;
         current.bound = root_bound_;
@@ -436,7 +462,7 @@ private:
             if (round >= kNodeRounds || add_cliques({0.01, 200, 200}) == 0) break;
         }
         if (relaxation_.row_count() > tree_rows_ + tree_rows_ / 2) {
-            relaxation_.drop_slack_rows(10);
+            relaxation_.drop_idle_rows(10);
             tree_rows_ = std::max(tree_rows_, relaxation_.row_count());
         }
         return NodeOutcome::Branch;
@@ -631,7 +657,11 @@ private:
     static constexpr std::int64_t kSearchShare = 6;    ///< one part in so many
     static constexpr std::int64_t kSearchChunk = 500;  ///< ticks per label
     static constexpr std::size_t kManyRules = 20;
-    static constexpr int kMostGomoryRounds = 30;
+    static constexpr std::size_t kMostGomoryRounds = 30, kGomoryPatience = 4;
+    static constexpr double kGomoryGain = 0.08;  ///< of the gap, per round
+    static constexpr std::size_t kMostEntries = 640;
+    static constexpr double kDenseGap = 0.01;  ///< of the best value
+    static constexpr std::int32_t kLargeColumns = 8000;
     static constexpr int kNodeRounds = 3;
     static constexpr int kMostStrong = 4;
     static constexpr int kPatience = 3;
@@ -649,6 +679,7 @@ private:
     NodeState state_;
     CliqueSeparator separator_;
     TripleSeparator triples_;
+    GomoryCutOptions gomory_options_;
     TreeResult result_;
     Value best_value_;
     Value root_bound_ = kHuge, open_bound_ = kNoValue;

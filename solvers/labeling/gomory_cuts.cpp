@@ -7,12 +7,14 @@
 // bound are complemented first. Coefficients too large for a row are divided and rounded down,
 // which keeps the cut valid because all variables are nonnegative. The tableau only suggests the
 // multipliers: the cut holds whatever they are. Unlike with plain rounding, small errors of p
-// change the cut little, so nothing depends on recovering the tableau exactly.
+// change the cut little, so nothing depends on recovering the tableau exactly. Where large blocks
+// of columns sit at one half, hundreds of tableau rows give one and the same cut: it counts once.
 #include "labeling/gomory_cuts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace labeling {
 namespace {
@@ -226,10 +228,12 @@ std::vector<Cut> gomory_cuts(Relaxation& relaxation, const GomoryCutOptions& opt
     for (const auto& [distance, c] : fractional) columns.push_back(c);
     CutBuilder builder(relaxation, options);
     std::vector<std::pair<double, Cut>> found;
+    std::set<std::uint64_t> seen;
     for (const auto& row : relaxation.engine().inverse_rows(columns)) {
         builder.work += static_cast<std::int64_t>(row.size()) * 2;
         Cut cut = builder.build(row);
-        if (!cut.entries.empty()) found.emplace_back(efficacy(cut, x), std::move(cut));
+        if (cut.entries.empty() || !seen.insert(hash_of(cut)).second) continue;
+        found.emplace_back(efficacy(cut, x), std::move(cut));
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });

@@ -8,9 +8,9 @@
 namespace labeling {
 
 struct GomoryCutOptions {
-    std::size_t max_rows = 300;  ///< tableau rows tried, the most fractional first
+    std::size_t max_rows = 1000;  ///< tableau rows tried, the most fractional first
     std::size_t max_cuts = 150;
-    std::size_t max_entries = 250;
+    std::size_t max_entries = 80;
     int max_multiple = 3;  ///< each row is tried times 1 .. this
     double min_efficacy = 1e-3;
 };

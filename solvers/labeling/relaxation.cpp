@@ -17,6 +17,10 @@ namespace {
 
 constexpr Value kHugeBound = Value{1} << 60;
 
+Value floor_shift(Int128 number, int shift) { return static_cast<Value>(number >> shift); }
+
+}  // namespace
+
 std::uint64_t hash_of(const Cut& cut) {
     std::uint64_t h = static_cast<std::uint64_t>(cut.right_hand_side) * 0x9e3779b97f4a7c15ULL;
     for (const Cut::Entry& e : cut.entries) {
@@ -27,10 +31,6 @@ std::uint64_t hash_of(const Cut& cut) {
     }
     return h;
 }
-
-Value floor_shift(Int128 number, int shift) { return static_cast<Value>(number >> shift); }
-
-}  // namespace
 
 Relaxation::Relaxation(const LabelingProblem& problem, const LpFactory& factory)
     : engine_(factory()), objective_(problem.weights().begin(), problem.weights().end()) {
@@ -74,7 +74,7 @@ void Relaxation::insert(Row row) {
     }
     engine_->add_row(entries, static_cast<double>(row.cut.right_hand_side) / row.scale);
     row.id = next_id_++;
-    row.slack_age = 0;
+    row.idle_age = 0;
     rows_.push_back(std::move(row));
 }
 
@@ -183,18 +183,21 @@ Value Relaxation::bound_if(std::int32_t column, bool value) const {
 
 void Relaxation::age_rows() {
     const auto activities = engine_->activities();
+    const auto multipliers = engine_->multipliers();
+    constexpr double kIdle = 1e-9;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         const double slack =
             static_cast<double>(rows_[r].cut.right_hand_side) / rows_[r].scale - activities[r];
-        rows_[r].slack_age = slack > 1e-6 ? rows_[r].slack_age + 1 : 0;
+        const bool is_idle = drops_tight_rows_ ? std::abs(multipliers[r]) < kIdle : slack > 1e-6;
+        rows_[r].idle_age = is_idle ? rows_[r].idle_age + 1 : 0;
     }
 }
 
-void Relaxation::drop_slack_rows(int age) {
+void Relaxation::drop_idle_rows(int age) {
     std::vector<std::int32_t> dropped;
     std::size_t kept = 0;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-        if (rows_[r].slack_age >= age) {
+        if (rows_[r].idle_age >= age) {
             dropped.push_back(static_cast<std::int32_t>(r));
             aside_.push_back(std::move(rows_[r]));
             continue;

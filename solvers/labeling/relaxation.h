@@ -31,6 +31,9 @@ struct Cut {
     }
 };
 
+/// Equal rows hash equal.
+std::uint64_t hash_of(const Cut& cut);
+
 /// Linear relaxation with exact rows and columns (labels, then bonuses) and a floating-point solver
 /// behind it. Every bound is recomputed in integers from the solver's multipliers, so it holds
 /// whatever the solver returned.
@@ -65,8 +68,12 @@ public:
     /// fixing to 1 (value) or 0 proves a bound of this or less.
     Value bound_if(std::int32_t column, bool value) const;
 
-    /// Takes rows that were slack in the last `age` solves out of the LP; they are kept aside.
-    void drop_slack_rows(int age);
+    /// Takes rows that were idle in the last `age` solves out of the LP; they are kept aside.
+    void drop_idle_rows(int age);
+    /// Idle is a row that is slack, or (on) one without a multiplier. Most tight rows of these LPs
+    /// have none: they hold zeros together and only cost time while cuts are added at the root; in
+    /// a tree they would be missed at the next node.
+    void set_drops_tight_rows(bool is_on) { drops_tight_rows_ = is_on; }
     /// Puts rows back that were kept aside and that x violates; returns how many. Adds the entries
     /// looked at to `work`.
     std::size_t restore_violated_rows(std::int64_t& work);
@@ -82,7 +89,7 @@ private:
     struct Row {
         Cut cut;
         std::uint32_t id = 0;
-        int slack_age = 0;
+        int idle_age = 0;
         std::uint64_t hash = 0;
         double scale = 1;    ///< the LP holds the row divided by this
         double largest = 1;  ///< largest absolute number in the row
@@ -106,6 +113,7 @@ private:
     Value bound_ = 0;
     double scale_ = 1;
     std::uint32_t next_id_ = 0;
+    bool drops_tight_rows_ = false;
 };
 
 }  // namespace labeling
