@@ -93,6 +93,7 @@ public:
             for (const ModelTerm& t : row.terms) is_used_[t.column] = true;
             if (row.terms.empty()) is_used_[0] = true;  // OPB has it as 0 x1
         }
+        engine_->stop_when([this] { return options_.stop.stop_requested(); });
         out_ = "pseudo-Boolean proof version 2.0\nf " + std::to_string(last_id_) + "\n";
     }
 
