@@ -136,7 +136,7 @@ private:
     /// before its dead end.
     void search() {
         struct Decision {
-            Label label;
+            std::size_t place;  ///< in the order; what is before it is decided
             std::size_t trail_size;
             bool is_flipped;
         };
@@ -155,9 +155,10 @@ private:
                 result_.solution = solution();
                 return;
             }
-            decisions.push_back({order[at], propagator_.trail().size(), false});
+            decisions.push_back({at, propagator_.trail().size(), false});
             bool is_consistent = propagator_.assign(order[at], preferred(order[at]));
             while (!is_consistent) {
+                charge(0);
                 if (++result_.backtracks > options_.max_backtracks || control_.is_over()) return;
                 while (!decisions.empty() && decisions.back().is_flipped) {
                     propagator_.undo(decisions.back().trail_size);
@@ -170,8 +171,8 @@ private:
                 Decision& last = decisions.back();
                 propagator_.undo(last.trail_size);
                 last.is_flipped = true;
-                is_consistent = propagator_.assign(last.label, !preferred(last.label));
-                at = 0;
+                at = last.place;
+                is_consistent = propagator_.assign(order[at], !preferred(order[at]));
             }
         }
     }
