@@ -24,13 +24,6 @@ constexpr std::int64_t kDefaultWork = 300'000'000;
 constexpr Label kLarge = 20000;
 constexpr std::int64_t kFirstAllowance = 100'000;  ///< ticks per label of a part
 
-Value sum_of_positive(const LabelingProblem& problem) {
-    Value bound = 0;
-    for (Value w : problem.weights()) bound += std::max(Value{0}, w);
-    for (const Bonus& b : problem.bonuses()) bound += b.value;
-    return bound;
-}
-
 class ExactSearch {
 public:
     ExactSearch(const LabelingProblem& problem, const SolveOptions& options,
@@ -60,7 +53,7 @@ public:
         for (const auto& m : members) {
             Part part;
             part.sub = decomposer_.extract(propagator_, m);
-            part.bound = sum_of_positive(part.sub.problem);
+            part.bound = sum_of_gains(part.sub.problem);
             parts_.push_back(std::move(part));
         }
         std::stable_sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
