@@ -662,7 +662,7 @@ private:
     static constexpr std::size_t kMostEntries = 640;
     static constexpr double kDenseGap = 0.01;  ///< of the best value
     static constexpr std::int32_t kLargeColumns = 8000;
-    static constexpr int kNodeRounds = 3;
+    static constexpr int kNodeRounds = 1;
     static constexpr int kMostStrong = 4;
     static constexpr int kPatience = 3;
     static constexpr int kReliable = 1;

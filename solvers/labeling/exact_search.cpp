@@ -1,12 +1,13 @@
 // The exact solvers' common frame. Reductions, root propagation and decomposition first; then part
-// by part,
-// small parts first, because thousands of them close at once, and in passes of growing allowance. A
-// part of a few labels goes straight to the depth-first tree; a larger one gets a local
-// search as long as its size justifies, then branch-and-cut where an LP is linked. Value and bound
-// of the whole are the sums over the parts, so both are known at any time.
+// by part, small parts first, because thousands of them close at once, and in passes of growing
+// allowance. A part of a few labels goes straight to the depth-first tree; a larger one gets a
+// local search as long as its size justifies, then branch-and-cut where an LP is linked. Value and
+// bound of the whole are the sums over the parts, so both are known at any time; until a part's
+// turn comes its bound is that of a clique cover.
 #include "labeling/exact_search.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "labeling/errors.h"
 #include "labeling/greedy.h"
@@ -16,12 +17,14 @@
 #include "labeling/rows.h"
 #include "labeling/run_control.h"
 #include "labeling/subproblem.h"
+#include "labeling/term_clique_bound.h"
 
 namespace labeling {
 namespace {
 
 constexpr std::int64_t kDefaultWork = 300'000'000;
 constexpr Label kLarge = 20000;
+constexpr std::int64_t kPairsPerTick = 16;
 constexpr std::int64_t kFirstAllowance = 100'000;  ///< ticks per label of a part
 
 class ExactSearch {
@@ -183,7 +186,20 @@ private:
         part.solution = std::move(found.solution);
         if (part.solution) part.value = part.solution->value;
         if (found.is_optimal) part.bound = part.value;
-        return !found.is_infeasible;
+        return found.is_infeasible ? false : found.is_optimal || bound_by_cliques(part);
+    }
+
+    /// A first bound for a part that others may keep waiting. False: the part has no solution.
+    bool bound_by_cliques(Part& part) {
+        const LabelingProblem& problem = part.sub.problem;
+        if (problem.label_count() <= techniques_.tree_size || control_.should_stop()) return true;
+        const RowSystem rows(problem);
+        Propagator propagator(problem, rows);
+        if (!propagator.propagate_all()) return false;
+        TermCliqueBound bound(problem, control_);
+        part.bound = std::min(part.bound, bound(propagator, std::numeric_limits<Value>::max()));
+        control_.spend(bound.work() / kPairsPerTick);
+        return true;
     }
 
     /// Passes over the open parts, each with four times the allowance of the one before, so that
