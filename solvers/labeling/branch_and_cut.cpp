@@ -357,6 +357,7 @@ private:
         RunControl::Cap cap(control_, 40 * std::int64_t{problem_.label_count()});
         LocalSearchOptions search;
         search.seed = options_.seed + 1000 + static_cast<std::uint64_t>(polish_count_++);
+        search.threads = options_.threads;
         search.start_temperature = 0.25;
         search.first_chain = 15 * std::int64_t{problem_.label_count()};
         Solution better =
@@ -373,6 +374,7 @@ private:
         RunControl::Cap cap(control_, due);
         LocalSearchOptions search;
         search.seed = options_.seed + 2000 + static_cast<std::uint64_t>(polish_count_++);
+        search.threads = options_.threads;
         search.start_temperature = 1.5;
         search.first_chain = due / 4;
         Solution better = improve_labeling(problem_, rows_, control_, *result_.solution, search);

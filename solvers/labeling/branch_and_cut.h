@@ -17,6 +17,7 @@ namespace labeling {
 struct BranchAndCutOptions {
     LpFactory lp;
     std::uint64_t seed = 1;
+    int threads = 1;  ///< of the local search
     Techniques techniques;
     /// Called with every better value (of the whole problem given) and bound.
     std::function<void(std::optional<Value>, std::optional<Value>)> report;

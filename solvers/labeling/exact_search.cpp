@@ -166,6 +166,7 @@ private:
         PartSearchOptions search;
         search.lp = exact_.lp;
         search.seed = options_.seed;
+        search.threads = options_.threads;
         search.techniques = techniques_;
         search.treewidth = &treewidth_;
         search.report = [&part, this](std::optional<Value> value, std::optional<Value> bound) {

@@ -17,7 +17,7 @@ constexpr std::int64_t kSearchTicksPerLabel = 1000;
 /// Dynamic programming may take so long: branch-and-cut seldom takes less.
 constexpr std::int64_t kWidthTicksPerLabel = 4000;
 /// Beyond this many columns the first LP alone would take minutes.
-constexpr std::size_t kMostColumns = 100000;
+constexpr std::size_t kMostColumns = 300000;
 
 TreeResult by_tree(const LabelingProblem& problem, const std::optional<Solution>& start,
                    RunControl& control, BranchAndCutStatistics* statistics) {
@@ -61,6 +61,7 @@ PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t
     RunControl::Cap cap(control, kSearchTicksPerLabel * problem.label_count());
     LocalSearchOptions search;
     search.seed = options.seed;
+    search.threads = options.threads;
     const std::function<void(Value)> report = [&](Value value) {
         if (options.report) options.report(value, std::nullopt);
     };
@@ -90,6 +91,7 @@ TreeResult prove_part(const LabelingProblem& problem, const std::optional<Soluti
     BranchAndCutOptions cut;
     cut.lp = options.lp;
     cut.seed = options.seed;
+    cut.threads = options.threads;
     cut.techniques = options.techniques;
     cut.report = options.report;
     cut.solve_rest = [&](const LabelingProblem& rest, const std::optional<Solution>& rest_start) {

@@ -17,6 +17,7 @@ namespace labeling {
 struct PartSearchOptions {
     LpFactory lp;  ///< empty: clique bounds alone
     std::uint64_t seed = 1;
+    int threads = 1;  ///< of the local search
     Techniques techniques;
     bool is_wide = false;  ///< known from start_part: dynamic programming takes too long
     TreewidthStatistics* treewidth = nullptr;  ///< counts on; may be null

@@ -29,8 +29,8 @@ constexpr std::array kSwitches{
 
 Techniques techniques_of(const SolveOptions& options, std::string_view solver) {
     require_known_extras(options, solver,
-                         {"tree-size", "heuristics", "reductions", "treewidth", "clique-cuts", "triple-cuts", "gomory-cuts",
-                          "fixing", "restarts", "strong-branching"});
+                         {"tree-size", "heuristics", "reductions", "treewidth", "clique-cuts",
+                          "triple-cuts", "gomory-cuts", "fixing", "restarts", "strong-branching"});
     Techniques techniques;
     for (const Switch& s : kSwitches) {
         const auto it = options.extra.find(s.key);

@@ -1,8 +1,9 @@
 // labeling-solve FILE --solver NAME [--work TICKS] [--time SECONDS] [--seed N] [--gap G]
-//                     [--set KEY=VALUE] [-o SOLUTION]
+//                     [--threads N] [--set KEY=VALUE] [-o SOLUTION]
 // Solves one labeling problem and prints a line: file, solver, status, stop reason, value, bound,
 // gap, work, seconds, processor seconds of the whole program. Exit codes: 0 solved or feasible, 2
 // usage, 3 bad input, 4 no solution.
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <exception>
@@ -20,7 +21,8 @@ namespace {
 
 constexpr const char* kUsage =
     "usage: labeling-solve FILE --solver NAME [--work TICKS] [--time SECONDS] [--seed N]\n"
-    "                      [--gap G] [--set KEY=VALUE]... [--trace] [-o SOLUTION]\n";
+    "                      [--threads N] [--gap G] [--set KEY=VALUE]... [--trace]\n"
+    "                      [-o SOLUTION]\n";
 
 labeling::SolverRegistry solvers() {
 #ifdef LABELING_WITH_MIP
@@ -48,6 +50,10 @@ Arguments parse(int argc, char** argv) {
             arguments.options.time_limit = std::chrono::duration<double>(words.real());
         } else if (words.is("--seed")) {
             arguments.options.seed = words.seed();
+        } else if (words.is("--threads")) {
+            constexpr std::int64_t kMost = 1024;
+            arguments.options.threads =
+                static_cast<int>(std::clamp<std::int64_t>(words.integer(), 0, kMost));
         } else if (words.is("--gap")) {
             arguments.options.relative_gap = words.real();
         } else if (words.is("--set")) {
