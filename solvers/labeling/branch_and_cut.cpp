@@ -152,6 +152,7 @@ private:
             stalled = is_stalled ? stalled + 1 : 0;
             last = bound;
             if (round % 8 == 3 || (stalled == 1)) polish();
+            search_long(round, gap);
             intensify();
             if (is_prunable(root_bound_)) return NodeOutcome::Pruned;
             std::size_t added = rules;
@@ -370,13 +371,31 @@ private:
         if (!options_.techniques.heuristics || !result_.solution) return;
         const std::int64_t due = (control_.work() - first_work_) / kSearchShare - search_work_;
         if (due < kSearchChunk * problem_.label_count()) return;
+        search(due, 1.5, due / 4);
+    }
+
+    /// Where cliques leave a wide gap a proof is far, and what counts is the labeling: one long
+    /// search, because many short ones find less.
+    void search_long(int round, double gap) {
+        if (!options_.techniques.heuristics || !result_.solution || has_searched_long_) return;
+        const double left = std::min(static_cast<double>(control_.work_left()),
+                                     kTicksPerSecond * control_.seconds_left());
+        const auto spent = static_cast<double>(control_.work() - first_work_);
+        if (round < kLongSearchRound && (round < 2 || 3 * spent < left)) return;
+        has_searched_long_ = true;
+        if (gap < kWideGap * std::abs(static_cast<double>(best_value_))) return;
+        const double most = static_cast<double>(kLongSearch * problem_.label_count());
+        search(static_cast<std::int64_t>(std::min(most, 0.4 * left)), 3.0, 0);
+    }
+
+    void search(std::int64_t ticks, double temperature, std::int64_t first_chain) {
         const std::int64_t before = control_.work();
-        RunControl::Cap cap(control_, due);
+        RunControl::Cap cap(control_, ticks);
         LocalSearchOptions search;
         search.seed = options_.seed + 2000 + static_cast<std::uint64_t>(polish_count_++);
         search.threads = options_.threads;
-        search.start_temperature = 1.5;
-        search.first_chain = due / 4;
+        search.start_temperature = temperature;
+        search.first_chain = first_chain;
         Solution better = improve_labeling(problem_, rows_, control_, *result_.solution, search);
         search_work_ += control_.work() - before;
         if (better.value > best_value_) accept(std::move(better));
@@ -658,6 +677,10 @@ private:
     static constexpr Value kHuge = Value{1} << 60;
     static constexpr std::int64_t kSearchShare = 6;    ///< one part in so many
     static constexpr std::int64_t kSearchChunk = 500;  ///< ticks per label
+    static constexpr std::int64_t kLongSearch = 8000;  ///< ticks per label
+    static constexpr int kLongSearchRound = 6;
+    static constexpr double kWideGap = 0.02;  ///< of the best value
+    static constexpr double kTicksPerSecond = 1e7;
     static constexpr std::size_t kManyRules = 20;
     static constexpr std::size_t kMostGomoryRounds = 30, kGomoryPatience = 4;
     static constexpr double kGomoryGain = 0.08;  ///< of the gap, per round
@@ -697,6 +720,7 @@ private:
     int polish_count_ = 0;
     const std::int64_t first_work_;
     std::int64_t search_work_ = 0;
+    bool has_searched_long_ = false;
 };
 
 }  // namespace
