@@ -13,7 +13,7 @@ namespace labeling {
 namespace {
 
 constexpr std::int64_t kSmallTreeTicks = 20000;
-constexpr std::int64_t kSearchTicksPerLabel = 1000;
+constexpr std::int64_t kSearchTicksPerLabel = 500;
 /// Dynamic programming may take so long: branch-and-cut seldom takes less.
 constexpr std::int64_t kWidthTicksPerLabel = 4000;
 /// Beyond this many columns the first LP alone would take minutes.
