@@ -25,6 +25,7 @@ namespace {
 constexpr std::int64_t kDefaultWork = 300'000'000;
 constexpr Label kLarge = 20000;
 constexpr std::int64_t kPairsPerTick = 16;
+constexpr std::int64_t kReductionTicks = 100;      ///< per label
 constexpr std::int64_t kFirstAllowance = 100'000;  ///< ticks per label of a part
 
 class ExactSearch {
@@ -37,8 +38,7 @@ public:
           techniques_(techniques_of(options, exact.name)),
           control_(options, exact.default_work_limit),
           given_(first_solution()),
-          reduced_(techniques_.reductions ? std::optional(reduce_problem(problem, control_))
-                                          : std::nullopt),
+          reduced_(techniques_.reductions ? std::optional(reduced_problem()) : std::nullopt),
           problem_(reduced_ ? reduced_->problem() : original_),
           warm_start_(start_of_rest()),
           rows_(problem_),
@@ -134,6 +134,13 @@ private:
         }
         if (first) control_.report(first->value, std::nullopt);
         return first;
+    }
+
+    /// Where labels have many neighbours, reductions take long and find little: they get no more
+    /// work than what a sparse problem needs.
+    ReducedProblem reduced_problem() {
+        RunControl::Cap cap(control_, kReductionTicks * original_.label_count());
+        return reduce_problem(original_, control_);
     }
 
     std::vector<std::int8_t> start_of_rest() const {

@@ -4,6 +4,8 @@
 // problem after fixing; that comes through here again.
 #include "labeling/part_search.h"
 
+#include <algorithm>
+
 #include "labeling/greedy.h"
 #include "labeling/local_search.h"
 #include "labeling/rows.h"
@@ -14,6 +16,9 @@ namespace {
 
 constexpr std::int64_t kSmallTreeTicks = 20000;
 constexpr std::int64_t kSearchTicksPerLabel = 500;
+/// Where labels have more rules than that, searches take longer and proofs are farther.
+constexpr std::int64_t kRulesPerLabel = 4;
+constexpr std::int64_t kMostSearchFactor = 3;
 /// Dynamic programming may take so long: branch-and-cut seldom takes less.
 constexpr std::int64_t kWidthTicksPerLabel = 4000;
 /// Beyond this many columns the first LP alone would take minutes.
@@ -41,6 +46,14 @@ std::optional<TreeResult> by_width(const LabelingProblem& problem, RunControl& c
     return treewidth_search(problem, control, width, options.treewidth);
 }
 
+/// Work of the search before any proof: 1 to 3 times the usual, by the number of rules.
+std::int64_t first_search_ticks(const LabelingProblem& problem) {
+    const auto labels = static_cast<std::int64_t>(problem.label_count());
+    const auto rules = static_cast<std::int64_t>(problem.rule_count());
+    return kSearchTicksPerLabel *
+           std::clamp(rules / kRulesPerLabel, labels, kMostSearchFactor * labels);
+}
+
 }  // namespace
 
 PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t> labels,
@@ -58,7 +71,7 @@ PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t
     if (options.report) options.report(start.solution->value, std::nullopt);
     if (problem.label_count() <= options.techniques.tree_size || control.should_stop())
         return start;
-    RunControl::Cap cap(control, kSearchTicksPerLabel * problem.label_count());
+    RunControl::Cap cap(control, first_search_ticks(problem));
     LocalSearchOptions search;
     search.seed = options.seed;
     search.threads = options.threads;
