@@ -240,7 +240,8 @@ TEST(LocalSearchTest, EveryTechniqueCanBeSwitchedOff) {
     const auto solver = labeling::make_local_search_solver();
     const LabelingProblem problem = curves(2, 4, 15);
     const auto greedy = labeling::make_greedy_solver()->solve(problem, {});
-    for (const char* key : {"reductions", "regions", "windows", "adaptive", "by-worth", "restarts", "recombination"}) {
+    for (const char* key : {"reductions", "regions", "windows", "adaptive", "by-worth", "restarts",
+                            "recombination"}) {
         SCOPED_TRACE(key);
         SolveOptions options = limited(300'000);
         options.extra[key] = "off";
