@@ -25,15 +25,11 @@ namespace {
 namespace fs = std::filesystem;
 using labeling::LabelingProblem;
 using labeling::Value;
+using labeling_runs::parse_variant;
+using labeling_runs::Variant;
 
 constexpr double kSame = 1e-8;  ///< relative; files give four digits
 constexpr double kNoTarget = 1e300;
-
-struct Variant {
-    std::string text;
-    std::string solver;
-    std::map<std::string, std::string> extra;
-};
 
 struct Arguments {
     std::vector<fs::path> files;
@@ -58,28 +54,6 @@ struct Total {
     int runs = 0;
     double seconds = 0;
 };
-
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    std::istringstream in(text);
-    for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
-    return parts;
-}
-
-Variant parse_variant(const std::string& text) {
-    Variant variant{text, "", {}};
-    for (const std::string& part : split(text, ':')) {
-        const std::size_t at = part.find('=');
-        if (variant.solver.empty()) {
-            variant.solver = part;
-        } else if (at == std::string::npos) {
-            throw labeling::InputError("'" + part + "' is not KEY=VALUE");
-        } else {
-            variant.extra[part.substr(0, at)] = part.substr(at + 1);
-        }
-    }
-    return variant;
-}
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;

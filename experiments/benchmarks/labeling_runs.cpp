@@ -7,6 +7,8 @@
 #include <random>
 #include <string>
 
+#include "labeling/errors.h"
+
 #ifdef LABELING_WITH_MIP
 #include "labeling_mip/mip_solvers.h"
 #endif
@@ -23,6 +25,22 @@ labeling::SolverRegistry every_solver() {
 #else
     return labeling::builtin_solvers();
 #endif
+}
+
+Variant parse_variant(const std::string& text) {
+    const std::size_t end = std::min(text.find(':'), text.size());
+    Variant variant{text, text.substr(0, end), {}};
+    for (std::size_t from = end; from < text.size();) {
+        const std::size_t to = std::min(text.find(':', from + 1), text.size());
+        const std::string pair = text.substr(from + 1, to - from - 1);
+        const std::size_t at = pair.find('=');
+        if (at == std::string::npos) {
+            throw labeling::InputError("'" + pair + "' is not KEY=VALUE");
+        }
+        variant.extra[pair.substr(0, at)] = pair.substr(at + 1);
+        from = to;
+    }
+    return variant;
 }
 
 std::vector<fs::path> problem_files(const fs::path& path) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,16 @@ namespace labeling_runs {
 
 /// Every solver that this build knows, external ones too.
 labeling::SolverRegistry every_solver();
+
+/// A solver with options of its own, written NAME:KEY=VALUE:...
+struct Variant {
+    std::string text;
+    std::string solver;
+    std::map<std::string, std::string> extra;
+};
+
+/// Throws InputError that names what is not KEY=VALUE.
+Variant parse_variant(const std::string& text);
 
 /// A file itself, or the files NAME.lab and NAME.lab.gz below a folder, sorted.
 std::vector<std::filesystem::path> problem_files(const std::filesystem::path& path);

@@ -32,12 +32,8 @@ namespace fs = std::filesystem;
 using labeling::LabelingProblem;
 using labeling::SolveResult;
 using labeling::SolveStatus;
-
-struct Variant {
-    std::string text;
-    std::string solver;
-    std::map<std::string, std::string> extra;
-};
+using labeling_runs::parse_variant;
+using labeling_runs::Variant;
 
 struct Arguments {
     std::vector<fs::path> files;
@@ -46,22 +42,6 @@ struct Arguments {
     std::uint64_t permutation = 0;
     int permutations = 0;
 };
-
-Variant parse_variant(const std::string& text) {
-    const std::size_t end = std::min(text.find(':'), text.size());
-    Variant variant{text, text.substr(0, end), {}};
-    for (std::size_t from = end; from < text.size();) {
-        const std::size_t to = std::min(text.find(':', from + 1), text.size());
-        const std::string pair = text.substr(from + 1, to - from - 1);
-        const std::size_t at = pair.find('=');
-        if (at == std::string::npos) {
-            throw labeling::InputError("'" + pair + "' is not KEY=VALUE");
-        }
-        variant.extra[pair.substr(0, at)] = pair.substr(at + 1);
-        from = to;
-    }
-    return variant;
-}
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
