@@ -60,7 +60,8 @@ public:
         if (is_consistent_ && control_.is_over()) {
             open_bound_ = sum_of_gains(problem_);
         } else if (is_consistent_ && fix_impossible()) {
-            for (Cut& cut : initial_clique_cuts(problem_, graph_)) relaxation_.add(std::move(cut));
+            for (Cut& cut : initial_clique_cuts(problem_, graph_, control_))
+                relaxation_.add(std::move(cut));
             charge(graph_.work());
             solve_root();
         }

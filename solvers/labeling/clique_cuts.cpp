@@ -63,6 +63,13 @@ void make_maximal(const TermGraph& graph, const std::vector<double>& worth,
     }
 }
 
+/// Looks at clock and stop token now and then.
+bool is_over(RunControl& control, std::size_t step) {
+    constexpr std::size_t kStepsPerLook = 64;
+    if (step % kStepsPerLook == 0) control.check();
+    return control.is_over();
+}
+
 std::vector<double> column_worth(const LabelingProblem& problem) {
     std::vector<double> worth;
     for (Value w : problem.weights()) worth.push_back(static_cast<double>(w));
@@ -72,13 +79,15 @@ std::vector<double> column_worth(const LabelingProblem& problem) {
 
 }  // namespace
 
-std::vector<Cut> initial_clique_cuts(const LabelingProblem& problem, const TermGraph& graph) {
+std::vector<Cut> initial_clique_cuts(const LabelingProblem& problem, const TermGraph& graph,
+                                     RunControl& control) {
     using Node = TermGraph::Node;
     const std::vector<double> worth = column_worth(problem);
     std::int64_t work = 0;
     std::vector<Cut> cuts;
     std::vector<Node> clique;
-    for (const auto& members : conflict_clique_cover(problem)) {
+    for (const auto& members : conflict_clique_cover(problem, &control)) {
+        if (is_over(control, cuts.size())) return cuts;
         clique.assign(members.begin(), members.end());
         make_maximal(graph, worth, clique, work);
         cuts.push_back(clique_cut(graph, clique));
@@ -90,6 +99,7 @@ std::vector<Cut> initial_clique_cuts(const LabelingProblem& problem, const TermG
         bonuses_of[problem.bonuses()[k].second].push_back(k);
     }
     for (Label i = 0; i < problem.label_count(); ++i) {
+        if (is_over(control, static_cast<std::size_t>(i))) return cuts;
         auto& open = bonuses_of[i];
         while (!open.empty()) {
             clique.assign(1, graph.off_node(i));

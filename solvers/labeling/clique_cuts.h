@@ -14,7 +14,9 @@ Cut clique_cut(const TermGraph& graph, std::span<const TermGraph::Node> clique);
 
 /// Maximal cliques that contain every label conflict, and for every bonus and each of its labels
 /// one with "label off" and the bonus: together they imply all conflicts and links y <= b.
-std::vector<Cut> initial_clique_cuts(const LabelingProblem& problem, const TermGraph& graph);
+/// Incomplete when `control` is over.
+std::vector<Cut> initial_clique_cuts(const LabelingProblem& problem, const TermGraph& graph,
+                                     RunControl& control);
 
 struct CliqueCutOptions {
     double min_violation = 1e-3;

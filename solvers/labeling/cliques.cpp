@@ -10,8 +10,11 @@ namespace {
 
 class CoverBuilder {
 public:
-    explicit CoverBuilder(const LabelingProblem& problem)
-        : problem_(problem), begin_(problem.label_count() + 1, 0), hits_(problem.label_count(), 0) {
+    CoverBuilder(const LabelingProblem& problem, RunControl* control)
+        : problem_(problem),
+          control_(control),
+          begin_(problem.label_count() + 1, 0),
+          hits_(problem.label_count(), 0) {
         for (Label i = 0; i < problem.label_count(); ++i) {
             begin_[i + 1] = begin_[i] + problem.conflicts_of(i).size();
         }
@@ -21,6 +24,7 @@ public:
     std::vector<std::vector<Label>> run() {
         std::vector<std::vector<Label>> cover;
         for (Label i = 0; i < problem_.label_count(); ++i) {
+            if (is_stopped(i)) break;
             const auto neighbours = problem_.conflicts_of(i);
             for (std::size_t k = 0; k < neighbours.size(); ++k) {
                 if (neighbours[k] > i && !is_covered_[begin_[i] + k]) {
@@ -32,6 +36,13 @@ public:
     }
 
 private:
+    bool is_stopped(Label i) const {
+        constexpr Label kLabelsPerLook = 64;
+        if (control_ == nullptr || i % kLabelsPerLook != 0) return false;
+        control_->check();
+        return control_->is_over();
+    }
+
     std::size_t edge_index(Label i, Label j) const {
         const auto neighbours = problem_.conflicts_of(i);
         const auto it = std::lower_bound(neighbours.begin(), neighbours.end(), j);
@@ -75,6 +86,7 @@ private:
     }
 
     const LabelingProblem& problem_;
+    RunControl* control_;
     std::vector<std::size_t> begin_;
     std::vector<std::uint8_t> is_covered_;  ///< per directed conflict
     std::vector<int> hits_;
@@ -82,8 +94,9 @@ private:
 
 }  // namespace
 
-std::vector<std::vector<Label>> conflict_clique_cover(const LabelingProblem& problem) {
-    return CoverBuilder(problem).run();
+std::vector<std::vector<Label>> conflict_clique_cover(const LabelingProblem& problem,
+                                                      RunControl* control) {
+    return CoverBuilder(problem, control).run();
 }
 
 }  // namespace labeling

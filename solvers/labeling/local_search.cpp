@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "labeling/chain_schedule.h"
 #include "labeling/errors.h"
@@ -38,6 +39,7 @@ constexpr std::int64_t kSplitSize = 1000, kSplitDegree = 2;
 constexpr double kPatienceShare = 0.25;
 constexpr std::uint32_t kSmallestWindow = 100, kLargestWindow = 500;
 constexpr std::int64_t kLargeShare = 3, kSmallShare = 10;
+constexpr double kWorthwhile = 3e-4;  ///< share of the value that counts as better for patience
 constexpr std::size_t kPoolSize = 6;
 constexpr double kCoreTicks = 100;  ///< per label of a difference
 constexpr int kCoreRounds = 3;
@@ -72,7 +74,9 @@ public:
     void run() {
         if (size_ == 0) return;
         first_work_ = control_.work();
-        while (!control_.should_stop()) {
+        last_better_ = first_work_;
+        noted_ = best_.value;
+        while (!has_ended()) {
             climb();
             if (!options_.restarts) continue;
             if (options_.recombination) recombine();
@@ -96,12 +100,19 @@ public:
     }
 
 private:
+    bool has_ended() const {
+        if (control_.should_stop()) return true;
+        const std::int64_t now = control_.work();
+        return options_.patience > 0 &&
+               now - last_better_ > std::max(options_.patience, (now - first_work_) / 3);
+    }
+
     void climb() {
         const std::int64_t first = control_.work();
         begin_climb();
         ChainSchedule schedule(options_.windows && size_ > 2 * kSmallestWindow, options_.adaptive);
         std::int64_t last_gain = control_.work();
-        while (!control_.should_stop()) {
+        while (!has_ended()) {
             const std::int64_t before = control_.work();
             const Value value = climb_.value;
             std::size_t kind = schedule.choose(random_);
@@ -253,6 +264,11 @@ private:
     void note() {
         if (climb_.value <= best_.value) return;
         best_ = climb_;
+        const double gain = static_cast<double>(best_.value - noted_);
+        if (gain > kWorthwhile * std::abs(static_cast<double>(best_.value))) {
+            noted_ = best_.value;
+            last_better_ = control_.work();
+        }
         if (report_) report_(best_.value);
     }
 
@@ -305,7 +321,9 @@ private:
     Solution best_, climb_;
     std::vector<Solution> pool_;
     RecentGain rounds_, outside_;
-    std::int64_t climbs_ = 0, recombined_ = 0, first_work_ = 0, intensify_work_ = 0;
+    Value noted_ = 0;
+    std::int64_t climbs_ = 0, recombined_ = 0, first_work_ = 0, last_better_ = 0,
+                 intensify_work_ = 0;
 };
 
 struct Switch {

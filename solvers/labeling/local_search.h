@@ -21,6 +21,8 @@ struct LocalSearchOptions {
     int lanes = 2;
     /// Work of the first annealing chain in ticks; 0 = chosen from the size.
     std::int64_t first_chain = 0;
+    /// Ends when nothing worthwhile was found in so many ticks, nor in a third of all; 0 = never.
+    std::int64_t patience = 0;
     /// Temperature at which the first chain begins, in medians of (weight + half the bonuses).
     double start_temperature = 3.0;
 

@@ -15,10 +15,12 @@ namespace labeling {
 namespace {
 
 constexpr std::int64_t kSmallTreeTicks = 20000;
-constexpr std::int64_t kSearchTicksPerLabel = 500;
+constexpr double kTicksPerSecond = 1e7;
+constexpr std::int64_t kPatiencePerLabel = 250;
+constexpr std::int64_t kMostSearchTicksPerLabel = 6000;
 /// Where labels have more rules than that, searches take longer and proofs are farther.
 constexpr std::int64_t kRulesPerLabel = 4;
-constexpr std::int64_t kMostSearchFactor = 3;
+constexpr std::int64_t kMostPatienceFactor = 3;
 /// Dynamic programming may take so long: branch-and-cut seldom takes less.
 constexpr std::int64_t kWidthTicksPerLabel = 4000;
 /// Beyond this many columns the first LP alone would take minutes.
@@ -46,12 +48,23 @@ std::optional<TreeResult> by_width(const LabelingProblem& problem, RunControl& c
     return treewidth_search(problem, control, width, options.treewidth);
 }
 
-/// Work of the search before any proof: 1 to 3 times the usual, by the number of rules.
-std::int64_t first_search_ticks(const LabelingProblem& problem) {
+/// The search before any proof ends when it stands still for so long: 1 to 3 times the usual, by
+/// the number of rules.
+std::int64_t first_search_patience(const LabelingProblem& problem) {
     const auto labels = static_cast<std::int64_t>(problem.label_count());
     const auto rules = static_cast<std::int64_t>(problem.rule_count());
-    return kSearchTicksPerLabel *
-           std::clamp(rules / kRulesPerLabel, labels, kMostSearchFactor * labels);
+    return kPatiencePerLabel *
+           std::clamp(rules / kRulesPerLabel, labels, kMostPatienceFactor * labels);
+}
+
+/// At most half of what is left, so that the bound gets its turn, and that only while it
+/// gains.
+std::int64_t first_search_ticks(const LabelingProblem& problem, const RunControl& control) {
+    const double left = std::min(static_cast<double>(control.work_left()),
+                                 kTicksPerSecond * control.seconds_left());
+    const auto least = static_cast<double>(2 * first_search_patience(problem));
+    const auto most = static_cast<double>(kMostSearchTicksPerLabel * problem.label_count());
+    return static_cast<std::int64_t>(std::clamp(left / 2, least, std::max(least, most)));
 }
 
 }  // namespace
@@ -71,8 +84,9 @@ PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t
     if (options.report) options.report(start.solution->value, std::nullopt);
     if (problem.label_count() <= options.techniques.tree_size || control.should_stop())
         return start;
-    RunControl::Cap cap(control, first_search_ticks(problem));
+    RunControl::Cap cap(control, first_search_ticks(problem, control));
     LocalSearchOptions search;
+    search.patience = first_search_patience(problem);
     search.seed = options.seed;
     search.threads = options.threads;
     const std::function<void(Value)> report = [&](Value value) {

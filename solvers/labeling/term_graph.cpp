@@ -37,7 +37,10 @@ TermGraph::TermGraph(const LabelingProblem& problem, Propagator& propagator, Run
         probe(problem, propagator, v, edges);
         if (control == nullptr || v % kProbesPerLook != 0) continue;
         control->check();
-        if (control->is_over()) break;
+        if (control->is_over()) {
+            edges.clear();
+            break;
+        }
     }
     build_adjacency(edges);
     work_ += 8 * static_cast<std::int64_t>(adjacency_.size());

@@ -181,7 +181,7 @@ public:
         labeling::TripleSeparator triples(problem_, rows, graph);
         SolveOptions options;
         labeling::RunControl control(options);
-        add(relaxation, labeling::initial_clique_cuts(problem_, graph), "initial");
+        add(relaxation, labeling::initial_clique_cuts(problem_, graph, control), "initial");
         for (int round = 0; round < 12; ++round) {
             using Outcome = labeling::LpEngine::Outcome;
             if (relaxation.solve(control, 1 << 20) != Outcome::Optimal) return;
