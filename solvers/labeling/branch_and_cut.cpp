@@ -60,8 +60,9 @@ public:
         if (is_consistent_ && control_.is_over()) {
             open_bound_ = sum_of_gains(problem_);
         } else if (is_consistent_ && fix_impossible()) {
-            for (Cut& cut : initial_clique_cuts(problem_, graph_, control_))
+            for (Cut& cut : initial_clique_cuts(problem_, graph_, control_)) {
                 relaxation_.add(std::move(cut));
+            }
             charge(graph_.work());
             solve_root();
         }
@@ -379,14 +380,12 @@ private:
     /// search, because many short ones find less.
     void search_long(int round, double gap) {
         if (!options_.techniques.heuristics || !result_.solution || has_searched_long_) return;
-        const double left = std::min(static_cast<double>(control_.work_left()),
-                                     kTicksPerSecond * control_.seconds_left());
-        const auto spent = static_cast<double>(control_.work() - first_work_);
-        if (round < kLongSearchRound && (round < 2 || 3 * spent < left)) return;
+        const std::int64_t left = control_.ticks_left();
+        const std::int64_t spent = control_.work() - first_work_;
+        if (round < kLongSearchRound && (round < 2 || spent < left / 3)) return;
         has_searched_long_ = true;
         if (gap < kWideGap * std::abs(static_cast<double>(best_value_))) return;
-        const double most = static_cast<double>(kLongSearch * problem_.label_count());
-        search(static_cast<std::int64_t>(std::min(most, 0.4 * left)), 3.0, 0);
+        search(std::min(kLongSearch * problem_.label_count(), left / 5 * 2), 3.0, 0);
     }
 
     void search(std::int64_t ticks, double temperature, std::int64_t first_chain) {
@@ -681,7 +680,6 @@ private:
     static constexpr std::int64_t kLongSearch = 8000;  ///< ticks per label
     static constexpr int kLongSearchRound = 6;
     static constexpr double kWideGap = 0.02;  ///< of the best value
-    static constexpr double kTicksPerSecond = 1e7;
     static constexpr std::size_t kManyRules = 20;
     static constexpr std::size_t kMostGomoryRounds = 30, kGomoryPatience = 4;
     static constexpr double kGomoryGain = 0.08;  ///< of the gap, per round

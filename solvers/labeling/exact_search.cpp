@@ -23,7 +23,7 @@ namespace labeling {
 namespace {
 
 constexpr std::int64_t kDefaultWork = 300'000'000;
-constexpr Label kLarge = 20000;
+constexpr Label kLargeProblem = 20000;  ///< labels
 constexpr std::int64_t kPairsPerTick = 16;
 constexpr std::int64_t kReductionTicks = 100;      ///< per label
 constexpr std::int64_t kFirstAllowance = 100'000;  ///< ticks per label of a part
@@ -48,7 +48,6 @@ public:
     SolveResult run() {
         if (reduced_ && reduced_->is_infeasible()) return infeasible();
         if (!propagator_.propagate_all()) return infeasible();
-        if (reduced_) offset_ = reduced_->offset();
         decided_ = decided_value(problem_, propagator_.values());
         labels_.assign(problem_.label_count(), 0);
         for (Label i = 0; i < problem_.label_count(); ++i) labels_[i] = propagator_.value(i) == 1;
@@ -106,7 +105,7 @@ private:
         }
         if (given_ && (!solution || given_->value > solution->value)) solution = given_;
         SolveResult result =
-            finish(original_, exact_.name, control_, std::move(solution), bound + offset_);
+            finish(original_, exact_.name, control_, std::move(solution), bound + offset());
         add_reductions(result);
         result.statistics["parts"] = static_cast<double>(parts_.size());
         result.statistics["narrow-parts"] = static_cast<double>(treewidth_.solved);
@@ -123,7 +122,7 @@ private:
     std::optional<Solution> first_solution() {
         const auto& start = options_.warm_start;
         std::optional<Solution> first;
-        if (original_.label_count() > kLarge && techniques_.heuristics) {
+        if (original_.label_count() > kLargeProblem && techniques_.heuristics) {
             GreedyOptions greedy;
             greedy.start = start;
             first = greedy_labeling(original_, RowSystem(original_), control_, greedy).solution;
@@ -149,6 +148,8 @@ private:
         return reduced_ ? reduced_->project(start) : start;
     }
 
+    Value offset() const { return reduced_ ? reduced_->offset() : 0; }
+
     void add_reductions(SolveResult& result) const {
         if (!reduced_) return;
         const ReductionStatistics& s = reduced_->statistics();
@@ -159,7 +160,7 @@ private:
     }
 
     void report() {
-        Value value = decided_ + offset_, bound = decided_ + offset_;
+        Value value = decided_ + offset(), bound = decided_ + offset();
         bool is_complete = true;
         for (const Part& part : parts_) {
             bound += part.bound;
@@ -260,7 +261,7 @@ private:
     Decomposer decomposer_;
     std::vector<Part> parts_;
     std::vector<std::uint8_t> labels_;
-    Value decided_ = 0, offset_ = 0;
+    Value decided_ = 0;
     BranchAndCutStatistics statistics_;
     TreewidthStatistics treewidth_;
 };

@@ -74,8 +74,8 @@ public:
     void run() {
         if (size_ == 0) return;
         first_work_ = control_.work();
-        last_better_ = first_work_;
-        noted_ = best_.value;
+        last_worthwhile_ = first_work_;
+        worthwhile_value_ = best_.value;
         while (!has_ended()) {
             climb();
             if (!options_.restarts) continue;
@@ -104,7 +104,7 @@ private:
         if (control_.should_stop()) return true;
         const std::int64_t now = control_.work();
         return options_.patience > 0 &&
-               now - last_better_ > std::max(options_.patience, (now - first_work_) / 3);
+               now - last_worthwhile_ > std::max(options_.patience, (now - first_work_) / 3);
     }
 
     void climb() {
@@ -131,19 +131,13 @@ private:
         ++climbs_;
     }
 
-    /// What the clock leaves, as far as ticks tell.
-    std::int64_t ticks_left() const {
-        const double ticks = 1e7 * control_.seconds_left();
-        return ticks < 1e18 ? static_cast<std::int64_t>(ticks) : std::int64_t{1} << 60;
-    }
-
     /// The first climb starts from what was given, the others from anywhere.
     void begin_climb() {
         Chain chain{climbs_ == 0 ? options_.start_temperature : kRestartHeat, kColdest, 0, false};
         chain.ticks = std::min(kFirstTicks * size_, std::max(kFirstMost, kFirstLeast * size_));
         if (climbs_ == 0 && options_.first_chain > 0) chain.ticks = options_.first_chain;
         // Where there is no time for a long chain, heat would only spoil what the start is worth.
-        const std::int64_t share = std::min(control_.work_left(), ticks_left()) / kFirstShare;
+        const std::int64_t share = control_.ticks_left() / kFirstShare;
         if (share < chain.ticks) {
             const double part = static_cast<double>(share) / static_cast<double>(chain.ticks);
             chain.hottest = std::max(std::min(kLeastHeat, chain.hottest), chain.hottest * part);
@@ -264,10 +258,10 @@ private:
     void note() {
         if (climb_.value <= best_.value) return;
         best_ = climb_;
-        const double gain = static_cast<double>(best_.value - noted_);
+        const double gain = static_cast<double>(best_.value - worthwhile_value_);
         if (gain > kWorthwhile * std::abs(static_cast<double>(best_.value))) {
-            noted_ = best_.value;
-            last_better_ = control_.work();
+            worthwhile_value_ = best_.value;
+            last_worthwhile_ = control_.work();
         }
         if (report_) report_(best_.value);
     }
@@ -321,8 +315,8 @@ private:
     Solution best_, climb_;
     std::vector<Solution> pool_;
     RecentGain rounds_, outside_;
-    Value noted_ = 0;
-    std::int64_t climbs_ = 0, recombined_ = 0, first_work_ = 0, last_better_ = 0,
+    Value worthwhile_value_ = 0;  ///< of the best at last_worthwhile_
+    std::int64_t climbs_ = 0, recombined_ = 0, first_work_ = 0, last_worthwhile_ = 0,
                  intensify_work_ = 0;
 };
 

@@ -15,7 +15,6 @@ namespace labeling {
 namespace {
 
 constexpr std::int64_t kSmallTreeTicks = 20000;
-constexpr double kTicksPerSecond = 1e7;
 constexpr std::int64_t kPatiencePerLabel = 250;
 constexpr std::int64_t kMostSearchTicksPerLabel = 6000;
 /// Where labels have more rules than that, searches take longer and proofs are farther.
@@ -60,11 +59,9 @@ std::int64_t first_search_patience(const LabelingProblem& problem) {
 /// At most half of what is left, so that the bound gets its turn, and that only while it
 /// gains.
 std::int64_t first_search_ticks(const LabelingProblem& problem, const RunControl& control) {
-    const double left = std::min(static_cast<double>(control.work_left()),
-                                 kTicksPerSecond * control.seconds_left());
-    const auto least = static_cast<double>(2 * first_search_patience(problem));
-    const auto most = static_cast<double>(kMostSearchTicksPerLabel * problem.label_count());
-    return static_cast<std::int64_t>(std::clamp(left / 2, least, std::max(least, most)));
+    const std::int64_t least = 2 * first_search_patience(problem);
+    const std::int64_t most = kMostSearchTicksPerLabel * problem.label_count();
+    return std::clamp(control.ticks_left() / 2, least, std::max(least, most));
 }
 
 }  // namespace

@@ -42,6 +42,13 @@ void RunControl::check() {
     }
 }
 
+std::int64_t RunControl::ticks_left() const {
+    constexpr double kTicksPerSecond = 1e7;
+    const double by_clock = kTicksPerSecond * seconds_left();
+    const std::int64_t by_work = work_left();
+    return by_clock < static_cast<double>(by_work) ? static_cast<std::int64_t>(by_clock) : by_work;
+}
+
 void RunControl::end(StopReason reason) {
     if (is_over_) return;
     is_over_ = true;

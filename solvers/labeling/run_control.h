@@ -44,6 +44,8 @@ public:
     double seconds_left() const;
     /// Ticks left for the caller.
     std::int64_t work_left() const { return std::max<std::int64_t>(0, cap_ - work_); }
+    /// The same, or less where the clock leaves less, at ten million ticks a second.
+    std::int64_t ticks_left() const;
 
     /// Records an improvement of value or bound; ends the run when the gap is reached.
     void report(std::optional<Value> value, std::optional<Value> bound);
