@@ -2,7 +2,8 @@
 //                  [--set KEY=VALUE]... [--permute N | --permutations N]
 // Solves labeling problems with several solvers and prints a Markdown table: value, bound, gap,
 // processor seconds (children included), wall seconds, those by an external solver's clock, nodes,
-// and when the last better value came. A solver may be followed by extra options of its own, as in
+// and when the last better value came; then how many problems each solver proved, and how fast. A
+// solver may be followed by extra options of its own, as in
 // highs:rows=paper. --permute renames labels and rules (N = 0: as they are), to see how much is
 // luck.
 // --permutations prints another table: for every problem the median seconds to the proof over N
@@ -138,7 +139,22 @@ void print_row(const fs::path& file, const LabelingProblem& problem, const std::
     std::fflush(stdout);
 }
 
+/// How one solver did on all problems.
+struct Tally {
+    int runs = 0, proven = 0, proven_soon = 0, at_once = 0;
+
+    void add(const Run& run) {
+        constexpr double kSoon = 10, kAtOnce = 0.05;
+        ++runs;
+        if (run.result.status != SolveStatus::Optimal) return;
+        ++proven;
+        proven_soon += run.processor_seconds < kSoon ? 1 : 0;
+        at_once += run.processor_seconds < kAtOnce ? 1 : 0;
+    }
+};
+
 void print_runs(const Arguments& arguments) {
+    std::vector<Tally> tallies(arguments.variants.size());
     std::printf(
         "| problem | solver | value | bound | gap | CPU s | s | own s | last value at | nodes "
         "| work | message |\n"
@@ -148,9 +164,20 @@ void print_runs(const Arguments& arguments) {
         if (arguments.permutation > 0) {
             problem = labeling_runs::renamed(problem, arguments.permutation);
         }
-        for (const Variant& variant : arguments.variants) {
-            print_row(file, problem, variant.text, solve(problem, variant, arguments.options));
+        for (std::size_t k = 0; k < arguments.variants.size(); ++k) {
+            const Variant& variant = arguments.variants[k];
+            const Run run = solve(problem, variant, arguments.options);
+            print_row(file, problem, variant.text, run);
+            tallies[k].add(run);
         }
+    }
+    std::printf(
+        "\n| solver | problems | proven | within 10 CPU s | within 0.05 CPU s |\n"
+        "|---|---|---|---|---|\n");
+    for (std::size_t k = 0; k < tallies.size(); ++k) {
+        const Tally& t = tallies[k];
+        std::printf("| %s | %d | %d | %d | %d |\n", arguments.variants[k].text.c_str(), t.runs,
+                    t.proven, t.proven_soon, t.at_once);
     }
 }
 
