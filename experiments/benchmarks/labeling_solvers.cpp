@@ -3,9 +3,8 @@
 // Solves labeling problems with several solvers and prints a Markdown table: value, bound, gap,
 // processor seconds (children included), wall seconds, those by an external solver's clock, nodes,
 // and when the last better value came; then how many problems each solver proved, and how fast. A
-// solver may be followed by extra options of its own, as in
-// highs:rows=paper. --permute renames labels and rules (N = 0: as they are), to see how much is
-// luck.
+// solver may be followed by extra options of its own, as in highs:rows=paper. --permute renames
+// labels and rules (N = 0: as they are), to see how much is luck.
 // --permutations prints another table: for every problem the median seconds to the proof over N
 // renamings, one solver after the other on each. Without a proof the time limit counts; no time is
 // less than 0.05 s; a solver that fails throughout is left out; of an external solver the smaller
