@@ -3,11 +3,10 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <numeric>
-#include <random>
 #include <string>
 
 #include "labeling/errors.h"
+#include "labeling/renaming.h"
 
 #ifdef LABELING_WITH_MIP
 #include "labeling_mip/mip_solvers.h"
@@ -16,7 +15,6 @@
 namespace labeling_runs {
 
 namespace fs = std::filesystem;
-using labeling::Label;
 using labeling::LabelingProblem;
 
 labeling::SolverRegistry every_solver() {
@@ -60,28 +58,7 @@ std::string problem_name(const fs::path& file) {
 }
 
 LabelingProblem renamed(const LabelingProblem& problem, std::uint64_t seed) {
-    std::vector<Label> order(static_cast<std::size_t>(problem.label_count()));
-    std::iota(order.begin(), order.end(), 0);
-    std::mt19937_64 engine(seed);
-    for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[engine() % k]);
-    labeling::ProblemBuilder builder;
-    std::vector<labeling::Value> weights(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        weights[order[i]] = problem.weight(static_cast<Label>(i));
-    }
-    for (labeling::Value w : weights) builder.add_label(w);
-    for (const auto& c : problem.conflicts()) builder.add_conflict(order[c.first], order[c.second]);
-    for (const auto& b : problem.bonuses()) {
-        builder.add_bonus(order[b.first], order[b.second], b.value);
-    }
-    std::vector<labeling::Rule> rules(problem.rules().begin(), problem.rules().end());
-    for (std::size_t k = rules.size(); k > 1; --k) std::swap(rules[k - 1], rules[engine() % k]);
-    for (labeling::Rule& rule : rules) {
-        for (labeling::Term& t : rule.terms) t.label = order[t.label];
-        builder.add_rule(std::move(rule));
-    }
-    builder.set_units_per_one(problem.units_per_one());
-    return builder.build();
+    return labeling::rename_labels(problem, seed).problem;
 }
 
 double processor_seconds() {

@@ -125,12 +125,21 @@ public:
         take_start();
         if (control_.is_over()) return result();
         if (program_.largest_coefficient > 0 && largest_ > program_.largest_coefficient) {
+            statistics_["not_applicable"] = 1;
             fail("not tried: a coefficient of the objective, " + std::to_string(largest_) +
                  ", exceeds what " + program_.name + " reads");
             return result();
         }
         const ScratchFolder folder;
-        const ProgramOutcome outcome = start_program(folder.path());
+        std::string text;
+        try {
+            text = format_problem(problem_, program_.problem_format, rows_);
+        } catch (const InputError& error) {
+            statistics_["not_applicable"] = 1;
+            fail(std::string("not tried: ") + error.what());
+            return result();
+        }
+        const ProgramOutcome outcome = start_program(folder.path(), text);
         judge(outcome, folder.path());
         return result(is_infeasible_ && !best_);
     }
@@ -188,12 +197,11 @@ private:
         return values;
     }
 
-    ProgramOutcome start_program(const std::filesystem::path& folder) {
+    ProgramOutcome start_program(const std::filesystem::path& folder, const std::string& text) {
         // Writing what the program needs counts as its time, as it would for anyone who calls it.
         ProgramRun run;
         auto values = placeholders(folder);
-        write_text_file(values["problem"],
-                        format_problem(problem_, program_.problem_format, rows_));
+        write_text_file(values["problem"], text);
         if (best_) write_text_file(values["start"], start_text());
         if (program_.command.find("{worker}") != std::string::npos) {
             write_text_file(values["worker"], worker_text());
@@ -218,6 +226,7 @@ private:
     void judge(const ProgramOutcome& outcome, const std::filesystem::path& folder) {
         switch (outcome.end) {
             case ProgramEnd::NotFound:
+                statistics_["missing"] = 1;
                 return fail("'" + program_name_ + "' is not installed: " + program_.advice);
             case ProgramEnd::NotStarted:
                 return fail("'" + program_name_ + "' does not start: " + outcome.message);
@@ -243,6 +252,11 @@ private:
             answer.claim = std::min(answer.claim, Claim::Feasible);  // labels can be checked,
             answer.bound.reset();                                    // nothing else
         } else if (answer.claim == Claim::Failed) {
+            // The worker's words for a package that is not there and for a licence too small.
+            if (answer.message.starts_with("not installed")) statistics_["missing"] = 1;
+            if (answer.message.find("size-limited") != std::string::npos) {
+                statistics_["not_applicable"] = 1;
+            }
             return fail(answer.message.empty() ? "the program gave up" : answer.message);
         } else if (!unreadable.empty() && !is_stopped) {
             const std::string said = last_line(text_of(folder / "errors.txt"));

@@ -36,7 +36,8 @@ struct ExternalProgram {
 /// strengthened), `command` (another template), `memory` (MiB of address space for each process),
 /// `python` (interpreter of the worker). A work limit becomes a time limit of 10^7 ticks a second.
 /// Statistics: solver_seconds (its own clock, where it tells), process_seconds, process_cpu,
-/// memory_mib, nodes.
+/// memory_mib, nodes; missing = 1 where the program is not installed, not_applicable = 1 where it
+/// cannot take the problem (rules in a graph format, coefficients or a size it does not allow).
 std::shared_ptr<const Solver> make_external_solver(ExternalProgram program);
 
 /// glpk, clasp, toulbar2, highs, scip, cp-sat and gurobi, installed or not, and `external`, which

@@ -1,18 +1,27 @@
 // labeling-solve FILE --solver NAME [--work TICKS] [--time SECONDS] [--seed N] [--gap G]
-//                     [--threads N] [--set KEY=VALUE] [-o SOLUTION]
+//                     [--threads N] [--set KEY=VALUE] [--start SOLUTION] [--rename SEED]
+//                     [-o SOLUTION] [--result JSON]
 // Solves one labeling problem and prints a line: file, solver, status, stop reason, value, bound,
-// gap, work, seconds, processor seconds of the whole program. Exit codes: 0 solved or feasible, 2
-// usage, 3 bad input, 4 no solution.
+// gap, work, seconds, processor seconds of the whole program. SIGINT and SIGTERM end it with the
+// best so far. Exit codes: 0 solved or feasible, 2 usage, 3 bad input, 4 no solution.
+#include <pthread.h>
+
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include "labeling/errors.h"
 #include "labeling/formats.h"
+#include "labeling/renaming.h"
 #include "labeling/solver.h"
+#include "labeling/text_file.h"
 #include "tools/argument_words.h"
+#include "tools/result_json.h"
 #ifdef LABELING_WITH_MIP
 #include "labeling_mip/mip_solvers.h"
 #endif
@@ -22,7 +31,7 @@ namespace {
 constexpr const char* kUsage =
     "usage: labeling-solve FILE --solver NAME [--work TICKS] [--time SECONDS] [--seed N]\n"
     "                      [--threads N] [--gap G] [--set KEY=VALUE]... [--trace]\n"
-    "                      [-o SOLUTION]\n";
+    "                      [--start SOLUTION] [--rename SEED] [-o SOLUTION] [--result JSON]\n";
 
 labeling::SolverRegistry solvers() {
 #ifdef LABELING_WITH_MIP
@@ -33,7 +42,8 @@ labeling::SolverRegistry solvers() {
 }
 
 struct Arguments {
-    std::string file, solver = "auto", output;
+    std::string file, solver = "auto", output, start, result;
+    std::uint64_t renaming = 0;
     labeling::SolveOptions options;
     bool has_trace = false;
 };
@@ -61,6 +71,12 @@ Arguments parse(int argc, char** argv) {
             arguments.options.extra[key] = value;
         } else if (words.is("--trace")) {
             arguments.has_trace = true;
+        } else if (words.is("--start")) {
+            arguments.start = words.value();
+        } else if (words.is("--rename")) {
+            arguments.renaming = words.seed();
+        } else if (words.is("--result")) {
+            arguments.result = words.value();
         } else if (words.is("-o")) {
             arguments.output = words.value();
         } else if (arguments.file.empty() && !words.is_option()) {
@@ -80,13 +96,7 @@ void print_trace(const labeling::TracePoint& point) {
     std::fputc('\n', stderr);
 }
 
-int run(const Arguments& arguments) {
-    const auto problem = labeling::read_problem(arguments.file);
-    const auto solver = solvers().find(arguments.solver);
-    auto options = arguments.options;
-    if (arguments.has_trace) options.on_improvement = print_trace;
-    const labeling::SolveResult result = solver->solve(problem, options);
-    const double units = problem.units_per_one();
+void print_line(const Arguments& arguments, const labeling::SolveResult& result, double units) {
     std::printf("%s %s %s %s", arguments.file.c_str(), arguments.solver.c_str(),
                 std::string(labeling::to_string(result.status)).c_str(),
                 std::string(labeling::to_string(result.stop_reason)).c_str());
@@ -101,10 +111,47 @@ int run(const Arguments& arguments) {
     for (const auto& [key, value] : result.statistics) std::printf(" %s %g", key.c_str(), value);
     if (!result.message.empty()) std::printf(" (%s)", result.message.c_str());
     std::printf("\n");
+}
+
+/// The first SIGINT or SIGTERM asks for a stop; the next one ends the program.
+std::stop_token stop_at_signals() {
+    static std::stop_source source;
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    std::thread([signals] {
+        int signal = 0;
+        if (sigwait(&signals, &signal) != 0) return;
+        source.request_stop();
+        if (sigwait(&signals, &signal) == 0) std::_Exit(128 + signal);
+    }).detach();
+    return source.get_token();
+}
+
+int run(const Arguments& arguments) {
+    auto options = arguments.options;
+    options.stop = stop_at_signals();
+    const auto given = labeling::read_problem(arguments.file);
+    const auto renamed = labeling::rename_labels(given, arguments.renaming);
+    if (!arguments.start.empty()) {
+        const auto start = labeling::read_solution(arguments.start, given);
+        options.warm_start =
+            labeling::renamed_start(renamed, {start.labels.begin(), start.labels.end()});
+    }
+    const auto solver = solvers().find(arguments.solver);
+    if (arguments.has_trace) options.on_improvement = print_trace;
+    labeling::SolveResult result = solver->solve(renamed.problem, options);
+    if (result.solution) result.solution = labeling::original_solution(renamed, *result.solution);
+    print_line(arguments, result, given.units_per_one());
     if (!arguments.output.empty() && result.solution) {
         labeling::write_solution(*result.solution, arguments.output);
     }
-    return result.solution ? 0 : 4;
+    if (!arguments.result.empty()) {
+        labeling::write_text_file(arguments.result, labeling::result_json(result));
+    }
+    return result.solution || result.status == labeling::SolveStatus::Infeasible ? 0 : 4;
 }
 
 }  // namespace
