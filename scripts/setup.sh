@@ -8,7 +8,8 @@ mesh_folder="$root/build/meshes"
 program="$build_folder/bin/scalefcn"
 
 build_packages=(g++ make cmake ninja-build pkg-config libeigen3-dev libopenmesh-dev libcgal-dev
-    libtbb-dev nlohmann-json3-dev libcli11-dev libfmt-dev libpng-dev zlib1g-dev coinor-libcbc-dev)
+    libtbb-dev nlohmann-json3-dev libcli11-dev libfmt-dev libpng-dev zlib1g-dev coinor-libcbc-dev
+    libtomlplusplus-dev libsqlite3-dev)
 test_packages=(libgtest-dev python3 glpk-utils)
 
 say() { printf '== %s\n' "$*"; }

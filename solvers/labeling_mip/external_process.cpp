@@ -51,6 +51,7 @@ struct Launch {
     std::vector<char*> words;
     std::int64_t memory_bytes = 0, file_bytes = 0;
     pid_t parent = 0;
+    int gate = -1;  ///< end of a pipe; the child waits until it closes
 };
 
 [[noreturn]] void fail(int pipe) {
@@ -64,10 +65,13 @@ struct Launch {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != l.parent) ::_exit(127);
+    char nothing = 0;
+    while (l.gate >= 0 && ::read(l.gate, &nothing, 1) < 0 && errno == EINTR) {
+    }
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    for (int s : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD}) ::signal(s, SIG_DFL);
+    for (int s : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD, SIGXFSZ}) ::signal(s, SIG_DFL);
     const int in = ::open("/dev/null", O_RDONLY);
     const int out = ::open(l.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     const int err = ::open(l.error.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -123,6 +127,8 @@ void reap(pid_t child, ProgramOutcome& outcome) {
     outcome.processor_seconds =
         static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+    outcome.system_seconds = static_cast<double>(usage.ru_stime.tv_sec) +
+                             1e-6 * static_cast<double>(usage.ru_stime.tv_usec);
     outcome.memory_mib = static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
@@ -168,7 +174,8 @@ ProgramOutcome run_program(const ProgramRun& run) {
                  {},
                  run.memory_bytes,
                  run.file_bytes,
-                 ::getpid()};
+                 ::getpid(),
+                 -1};
     for (std::string& word : words) start.words.push_back(word.data());
     start.words.push_back(nullptr);
 
@@ -176,10 +183,25 @@ ProgramOutcome run_program(const ProgramRun& run) {
     if (::pipe2(ends, O_CLOEXEC) != 0) {
         return refused(ProgramEnd::NotStarted, std::strerror(errno));
     }
-    const double begin = now();
+    int gate[2] = {-1, -1};
+    if (run.before_start && ::pipe2(gate, O_CLOEXEC) != 0) {
+        const int reason = errno;
+        for (int end : ends) ::close(end);
+        return refused(ProgramEnd::NotStarted, std::strerror(reason));
+    }
+    start.gate = gate[0];
+    double begin = now();
     const pid_t child = ::fork();
-    if (child == 0) launch(start, ends[1]);
+    if (child == 0) {
+        if (gate[1] >= 0) ::close(gate[1]);
+        launch(start, ends[1]);
+    }
     const int fork_error = errno;
+    if (run.before_start) {
+        if (child > 0) run.before_start(child);
+        for (int end : gate) ::close(end);
+        begin = now();
+    }
     ::close(ends[1]);
     if (child < 0) {
         ::close(ends[0]);

@@ -18,6 +18,8 @@ struct ProgramRun {
     std::int64_t file_bytes = 0;        ///< largest file it may write; 0 = no limit
     double grace_seconds = 0.3;         ///< between SIGTERM and SIGKILL
     std::function<bool()> has_to_end;   ///< asked every 10 ms; true: stop the program
+    /// Called with the process's number once it exists and before the program starts in it.
+    std::function<void(int)> before_start;
 };
 
 enum class ProgramEnd {
@@ -36,6 +38,7 @@ struct ProgramOutcome {
     std::string message;           ///< why it did not start
     double seconds = 0;            ///< wall time
     double processor_seconds = 0;  ///< user and system, of the program and what it waited for
+    double system_seconds = 0;     ///< the part of it spent in the kernel
     double memory_mib = 0;         ///< peak resident memory of the largest process
 };
 

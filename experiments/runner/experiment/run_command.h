@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiment/plan.h"
+
+namespace experiment {
+
+/// What is started for a run, and where its answer will be.
+struct RunCommand {
+    std::vector<std::string> words;
+    std::string text;  ///< the same for people: to be typed in the campaign's folder
+    std::filesystem::path solution_file, result_file;
+};
+
+/// For a solver of this project: labeling-solve; for a study: scalefcn-experiment study-run; for a
+/// program: its words with {problem} (a plain .lab file), {solution}, {result}, {start}, {time},
+/// {seed}, {threads}, {memory} (MiB) replaced; what stands in [ ] is left out where its placeholder
+/// has no value. Writes what the program is to read into `scratch`.
+RunCommand run_command(const Plan& plan, const Job& job, const std::filesystem::path& home,
+                       const std::filesystem::path& scratch);
+
+/// The start of a problem for solvers that get one: FOLDER/starts/HASH.sol.
+std::filesystem::path start_file(const std::filesystem::path& folder,
+                                 const PlannedProblem& problem);
+
+}  // namespace experiment

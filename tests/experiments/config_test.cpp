@@ -1,0 +1,147 @@
+#include "experiment/config.h"
+
+#include <gtest/gtest.h>
+
+#include "experiment/plan.h"
+#include "labeling/errors.h"
+
+namespace experiment {
+namespace {
+
+const std::string kSmall =
+    "name = \"small\"\n"
+    "[limits]\n"
+    "time = 2\n"
+    "[[problems]]\n"
+    "family = \"chain\"\n"
+    "labels = [20, 40]\n"
+    "seed = [1, 2, 3]\n"
+    "[[solvers]]\n"
+    "solver = \"greedy\"\n";
+
+std::string error_of(const std::string& text) {
+    try {
+        parse_config(text, "some.toml");
+    } catch (const labeling::InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Config, ReadsWhatIsThereAndFillsInTheRest) {
+    const CampaignConfig config = parse_config(kSmall, "some.toml");
+    ASSERT_EQ(config.solvers.size(), 1u);
+    EXPECT_EQ(config.solvers[0].name, "greedy");
+    EXPECT_EQ(config.solvers[0].limits.seconds, 2.0);
+    EXPECT_EQ(config.solvers[0].seeds, std::vector<std::uint64_t>{1});
+    EXPECT_EQ(config.solvers[0].renamings, std::vector<std::uint64_t>{0});
+    EXPECT_EQ(config.report.baseline, "greedy");
+    EXPECT_EQ(config.problems[0].family_options.at("labels").size(), 2u);
+}
+
+TEST(Config, SolversOverrideLimits) {
+    const CampaignConfig config =
+        parse_config(kSmall + "time = 7.5\nmemory = \"2GiB\"\n", "some.toml");
+    EXPECT_EQ(config.solvers[0].limits.seconds, 7.5);
+    EXPECT_EQ(config.solvers[0].limits.memory_mib, 2048);
+}
+
+struct BadConfig {
+    const char* what;
+    std::string text;
+    const char* part_of_error;
+};
+
+class BadConfigs : public ::testing::TestWithParam<BadConfig> {};
+
+TEST_P(BadConfigs, AreRefusedWithLineAndReason) {
+    const std::string error = error_of(GetParam().text);
+    EXPECT_NE(error.find(GetParam().part_of_error), std::string::npos) << "error: " << error;
+    EXPECT_EQ(error.find("some.toml:"), 0u) << "error: " << error;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadConfigs,
+    ::testing::Values(
+        BadConfig{"unknown key of a solver", kSmall + "thread = 2\n", ":10: unknown key 'thread'"},
+        BadConfig{"unknown key at the top", "colour = 1\n" + kSmall, ":1: unknown key 'colour'"},
+        BadConfig{"negative limit", kSmall + "time = -1\n", ":10: time: -1 is not between"},
+        BadConfig{"limit that is no number", kSmall + "time = \"long\"\n", "time is not a number"},
+        BadConfig{"limit that is nan", kSmall + "time = nan\n", "time: nan is not between"},
+        BadConfig{"memory without unit", kSmall + "memory = \"4\"\n", "not a size"},
+        BadConfig{"seed twice", kSmall + "seeds = [3, 3]\n", "3 stands there twice"},
+        BadConfig{"negative seed", kSmall + "seeds = [-3]\n", "not an integer of at least 0"},
+        BadConfig{"no seeds", kSmall + "seeds = []\n", "seeds is empty"},
+        BadConfig{"two solvers of one name", kSmall + "[[solvers]]\nsolver = \"greedy\"\n",
+                  "two solvers are named 'greedy'"},
+        BadConfig{"neither solver nor program", kSmall + "[[solvers]]\nname = \"x\"\n",
+                  "either 'solver' or 'program'"},
+        BadConfig{"both", kSmall + "program = \"p\"\n", "either 'solver' or 'program'"},
+        BadConfig{"unknown family", kSmall + "[[problems]]\nfamily = \"circles\"\n",
+                  "unknown family 'circles'"},
+        BadConfig{"two sources", kSmall + "[[problems]]\nfamily = \"chain\"\nfiles = \"a\"\n",
+                  "one of files, family and meshes"},
+        BadConfig{"no scales", kSmall + "[[problems]]\nmeshes = \"a.off\"\n", "need scales"},
+        BadConfig{"unknown baseline", kSmall + "[report]\nbaseline = \"scip\"\n",
+                  "no solver 'scip'"},
+        BadConfig{"name of a file elsewhere", kSmall + "name = \"../x\"\n", "letters, digits"},
+        BadConfig{"no TOML", "name = \n", ":1: "},
+        BadConfig{"no name", "[[solvers]]\nsolver = \"greedy\"\n", "needs name"},
+        BadConfig{"empty", "", "needs name"}),
+    [](const auto& entry) {
+        std::string name = entry.param.what;
+        for (char& c : name) c = c == ' ' ? '_' : c;
+        return name;
+    });
+
+std::vector<PlannedProblem> two_problems() {
+    std::vector<PlannedProblem> problems(2);
+    problems[0].name = "a";
+    problems[0].hash = "1";
+    problems[1].name = "b";
+    problems[1].hash = "2";
+    return problems;
+}
+
+TEST(Plan, HoldsEveryCombinationOnceInBlocksOfOneProblem) {
+    const CampaignConfig config = parse_config(
+        "name = \"x\"\nseeds = [1, 2, 3]\n[[problems]]\nfamily = \"chain\"\n"
+        "[[solvers]]\nsolver = \"greedy\"\n[[solvers]]\nsolver = \"auto\"\nrenamings = [0, 1]\n"
+        "[[solvers]]\nsolver = \"lns\"\nproblems = [\"b*\"]\n",
+        "some.toml");
+    const Plan plan = make_plan(config, two_problems());
+    ASSERT_EQ(plan.jobs.size(), 3u + 6u + 3u + 6u + 3u);
+    std::map<std::string, int> keys;
+    for (std::size_t k = 0; k < plan.jobs.size(); ++k) {
+        ++keys[plan.jobs[k].key];
+        EXPECT_EQ(plan.jobs[k].problem, k < 9 ? 0u : 1u);
+    }
+    EXPECT_EQ(keys.size(), plan.jobs.size());
+    // Solvers take turns: some run of another solver stands between those of each.
+    int changes = 0;
+    for (std::size_t k = 1; k < plan.jobs.size(); ++k) {
+        changes += plan.jobs[k].solver != plan.jobs[k - 1].solver;
+    }
+    EXPECT_GT(changes, 5);
+}
+
+TEST(Plan, KeysDependOnWhatMattersAndOnNothingElse) {
+    const auto plan_of = [](const std::string& more) {
+        return make_plan(parse_config(kSmall + more, "some.toml"), two_problems());
+    };
+    const Plan plan = plan_of("");
+    EXPECT_EQ(plan.jobs[0].key, plan_of("[report]\nfloor = 0.1\n").jobs[0].key);
+    EXPECT_NE(plan.jobs[0].key, plan_of("time = 3\n").jobs[0].key);
+    EXPECT_NE(plan.jobs[0].key, plan_of("options = { rule = \"gain\" }\n").jobs[0].key);
+    EXPECT_NE(plan.jobs[0].key, plan_of("seeds = [2]\n").jobs[0].key);
+}
+
+TEST(Plan, IsReadBackAsItWasWritten) {
+    const Plan plan = make_plan(
+        parse_config(kSmall + "options = { rule = \"gain\" }\nwork = 1000\n", "some.toml"),
+        two_problems());
+    EXPECT_EQ(to_json(plan_from(to_json(plan), "plan")).dump(), to_json(plan).dump());
+}
+
+}  // namespace
+}  // namespace experiment

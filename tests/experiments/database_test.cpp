@@ -1,0 +1,107 @@
+#include "experiment/database.h"
+
+#include <gtest/gtest.h>
+
+#include "experiment/estimate.h"
+#include "experiment/folder_lock.h"
+#include "labeling/errors.h"
+#include "labeling/text_file.h"
+#include "labeling_mip/external_process.h"
+
+namespace experiment {
+namespace {
+
+Record some_record(const std::string& key) {
+    Record r;
+    r.key = key;
+    r.outcome = Outcome::Optimal;
+    r.status = "optimal";
+    r.stop_reason = "finished";
+    r.message = "with 'quotes' and \"more\"";
+    r.value = 1234567890123;
+    r.bound = 1234567890124;
+    r.work = 77;
+    r.solver_seconds = 0.125;
+    r.statistics = {{"nodes", 3}, {"gap", 0.5}};
+    r.trace = {{0.5, 10, 5, std::nullopt}, {0.75, 20, std::nullopt, 9}};
+    r.measures.wall_seconds = 1.5;
+    r.measures.instructions = 42;
+    r.measures.started_at = "2020-01-01T00:00:00Z";
+    r.command = "labeling-solve x";
+    r.provenance = {{"commit", "abc"}, {"instance", "f00"}, {"seed", "1"}};
+    return r;
+}
+
+TEST(Database, GivesBackWhatItWasGiven) {
+    const labeling::ScratchFolder folder;
+    Database(folder.path()).store(some_record("a"));
+    const auto records = Database(folder.path()).records();
+    ASSERT_EQ(records.size(), 1u);
+    EXPECT_EQ(to_json(records[0]).dump(), to_json(some_record("a")).dump());
+}
+
+TEST(Database, KeepsTheFirstRecordOfARun) {
+    const labeling::ScratchFolder folder;
+    Database database(folder.path());
+    EXPECT_TRUE(database.store(some_record("a")));
+    Record other = some_record("a");
+    other.value = 1;
+    other.trace.clear();
+    EXPECT_FALSE(database.store(other));
+    ASSERT_EQ(database.records().size(), 1u);
+    EXPECT_EQ(database.records()[0].value, some_record("a").value);
+    EXPECT_EQ(database.records()[0].trace.size(), 2u);
+}
+
+TEST(Database, SaysWhatIsWrongWithAFileThatIsNone) {
+    const labeling::ScratchFolder folder;
+    labeling::write_text_file(folder.path() / "campaign.sqlite", std::string(5000, 'x'));
+    try {
+        Database database(folder.path());
+        FAIL() << "accepted";
+    } catch (const labeling::InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("campaign.sqlite: file is not a database"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(Record, IsReadBackFromJson) {
+    const Record r = some_record("a");
+    EXPECT_EQ(to_json(record_from(to_json(r), "file")).dump(), to_json(r).dump());
+    auto broken = to_json(r);
+    broken.erase("measures");
+    EXPECT_THROW(record_from(broken, "file"), labeling::InputError);
+    broken = to_json(r);
+    broken["outcome"] = "splendid";
+    EXPECT_THROW(record_from(broken, "file"), labeling::InputError);
+}
+
+TEST(FolderLock, IsHeldByOne) {
+    const labeling::ScratchFolder folder;
+    {
+        const FolderLock lock(folder.path());
+        EXPECT_THROW(FolderLock second(folder.path()), labeling::InputError);
+    }
+    EXPECT_NO_THROW(FolderLock third(folder.path()));
+}
+
+TEST(RemainingTime, CountsLimitsFirstAndMeansLater) {
+    Plan plan;
+    plan.solvers.resize(1);
+    plan.solvers[0].limits.seconds = 10;
+    plan.solvers[0].limits.margin_seconds = 1;
+    const Job job{"k", 0, 0, 1, 0};
+    RemainingTime remaining(plan, 2);
+    for (int k = 0; k < 6; ++k) remaining.is_left(job);
+    EXPECT_EQ(remaining.bounds().first, 0);
+    EXPECT_NEAR(remaining.bounds().second, 6 * 12.1 / 2, 1e-9);
+    remaining.has_ended(job, 3);
+    remaining.has_ended(job, 3);
+    // Two equal times: four runs of three seconds, two at a time.
+    EXPECT_NEAR(remaining.bounds().first, 6, 1e-9);
+    EXPECT_NEAR(remaining.bounds().second, 6, 1e-9);
+}
+
+}  // namespace
+}  // namespace experiment
