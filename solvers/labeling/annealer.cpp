@@ -199,6 +199,9 @@ void Annealer::recombine() {
         }
         charge(model_.label_count() / 4);
     }
+    for (Label i : since_best_) {
+        if (state_.is_on(i) != (best_.labels[i] != 0)) changes_.emplace_back(i, state_.is_on(i));
+    }
     const auto looked_at = static_cast<std::int64_t>(since_best_.size());
     for (const auto& part : parts_.split(since_best_, best_.labels, state_.labels())) {
         const Value value = state_.value();
@@ -225,6 +228,7 @@ void Annealer::merge(const Solution& other) {
     best_ = other;
     is_tracking_ = false;
     recombine();
+    changes_.clear();
 }
 
 void Annealer::adopt(const Solution& other) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "labeling/compound_move.h"
@@ -54,6 +55,12 @@ public:
     const Solution& best() const { return best_; }
     double unit() { return random_.unit(); }
 
+    /// Labels in which ends of chains differed from the best since the last call, with the values
+    /// they had there. Later chains come later.
+    std::vector<std::pair<Label, std::uint8_t>> take_changes() {
+        return std::exchange(changes_, {});
+    }
+
     AnnealerStatistics statistics;
 
 private:
@@ -76,9 +83,10 @@ private:
     std::vector<std::uint8_t> is_allowed_;  ///< in the window; labels of rules alone always are
     Solution best_;
     std::vector<Label> since_best_;  ///< flips from the best to the current labeling
-    bool is_tracking_ = true;        ///< since_best_ is complete
-    bool is_recording_ = true;       ///< better labelings become the best
-    std::vector<float> worths_;      ///< per label, factor of the temperature
+    std::vector<std::pair<Label, std::uint8_t>> changes_;
+    bool is_tracking_ = true;    ///< since_best_ is complete
+    bool is_recording_ = true;   ///< better labelings become the best
+    std::vector<float> worths_;  ///< per label, factor of the temperature
     std::array<float, 4096> log_table_{};
     std::int64_t work_ = 0, limit_ = 0, next_poll_ = 0;
     std::function<bool()> poll_;

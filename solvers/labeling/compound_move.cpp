@@ -42,31 +42,42 @@ void CompoundMoves::refill() {
 
 bool CompoundMoves::eviction_loss(Label i, Value most, Value& loss) {
     loss = 0;
-    std::int32_t left = state_.blocker_count(i);
-    if (left == 0) return true;
-    for (Label j : problem_.conflicts_of(i)) {
-        if (!state_.is_on(j)) continue;
+    evicted_.clear();
+    auto evict = [&](Label j) {
         if (is_touched(j)) return false;
+        evicted_.push_back(j);
         loss += state_.gain(j);
-        if (loss > most) return false;
-        if (--left == 0) break;
+        return loss <= most;
+    };
+    std::int32_t left = state_.blocker_count(i);
+    std::int64_t sum = state_.blocker_sum(i);
+    if (left > 1) {
+        for (Label j : problem_.conflicts_of(i)) {
+            if (!state_.is_on(j)) continue;
+            if (!evict(j)) return false;
+            sum -= j;
+            if (--left == 1) break;
+        }
     }
-    return true;
+    return left == 0 || evict(static_cast<Label>(sum));
+}
+
+void CompoundMoves::switch_on_evicting(Label i) {
+    state_.mark(i);
+    for (Label j : evicted_) {
+        state_.mark(j);
+        state_.flip(j);
+    }
+    state_.flip(i);
 }
 
 bool CompoundMoves::switch_on(Label i) {
-    state_.mark(i);
-    std::int32_t left = state_.blocker_count(i);
-    if (left > 0) {
-        for (Label j : problem_.conflicts_of(i)) {
-            if (!state_.is_on(j)) continue;
-            if (is_touched(j)) return false;
-            state_.mark(j);
-            state_.flip(j);
-            if (--left == 0) break;
-        }
+    Value loss = 0;
+    if (!eviction_loss(i, kMost, loss)) {
+        state_.mark(i);
+        return false;
     }
-    state_.flip(i);
+    switch_on_evicting(i);
     return true;
 }
 
@@ -84,8 +95,8 @@ bool CompoundMoves::flip(Label i, Value threshold) {
         Value loss = 0;
         // Bonuses among the evicted are counted twice here, so the estimate is pessimistic.
         const Value most = state_.gain(i) - threshold;
-        if (!eviction_loss(i, most, loss) || loss > most) return false;
-        if (!switch_on(i)) return end(false, threshold, before);
+        if (most < 0 || !eviction_loss(i, most, loss)) return false;
+        switch_on_evicting(i);
     }
     return end(mend(before + threshold), threshold, before);
 }
@@ -98,7 +109,7 @@ bool CompoundMoves::insert_run(Label i, int length, Value threshold) {
         if (!state_.is_on(at)) {
             Value loss = 0;
             if (!eviction_loss(at, kMost, loss)) break;
-            if (!switch_on(at)) return end(false, threshold, before);
+            switch_on_evicting(at);
             --length;
         } else {
             state_.mark(at);

@@ -35,14 +35,17 @@ private:
     void refill();
     bool end(bool is_good, Value threshold, Value before);
     /// Loss of switching i on by evictions, given up beyond `most`. False: given up, or a touched
-    /// label is in the way.
+    /// label is in the way. Else evicted_ is what has to go.
     bool eviction_loss(Label i, Value most, Value& loss);
+    /// After eviction_loss.
+    void switch_on_evicting(Label i);
 
     const LabelingProblem& problem_;
     const RowSystem& rows_;
     SearchState& state_;
     Random& random_;
     const std::vector<std::uint8_t>* allowed_ = nullptr;
+    std::vector<Label> evicted_;
 };
 
 }  // namespace labeling

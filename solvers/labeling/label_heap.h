@@ -16,6 +16,7 @@ public:
 
     bool is_empty() const { return entries_.empty(); }
     Label top() const { return entries_.front(); }
+    bool contains(Label i) const { return places_[i] != kAbsent; }
 
     /// Inserts the label or changes its score.
     void set(Label i, double score) {

@@ -5,7 +5,9 @@
 // second lane is a second try. A climb that has come to nothing for a while is put into a small
 // pool and the next one starts hot. A finished climb is recombined with the pool: where two good
 // labelings differ is annealed with everything else fixed (the idea of CHILS, Grossmann, Langedal &
-// Schulz 2024, whose cores are these differences).
+// Schulz 2024, whose cores are these differences). In between, the best combination of the ends of
+// the last chains is found exactly (solution_merger.cpp), also across climbs: that is why a climb
+// need not go on for long.
 #include "labeling/local_search.h"
 
 #include <algorithm>
@@ -18,6 +20,7 @@
 #include "labeling/reduced_search.h"
 #include "labeling/region_splitter.h"
 #include "labeling/search_lanes.h"
+#include "labeling/solution_merger.h"
 
 namespace labeling {
 namespace {
@@ -31,17 +34,19 @@ constexpr std::int64_t kFirstTicks = 150;                         ///< per label
 constexpr std::int64_t kFirstMost = 3'000'000, kFirstLeast = 25;  ///< where that is much
 constexpr std::int64_t kLargestRegion = 4000;
 constexpr double kLeastHeat = 0.5;
-constexpr double kRestartHeat = 3.0;
+constexpr std::array<double, 3> kRestartHeats{3.0, 1.5, 1.5};
 constexpr std::int64_t kFirstShare = 4;  ///< of the work, at most
 constexpr std::int64_t kLeastRound = 20000;
-constexpr double kPatience = 250;  ///< ticks per label without gain
+constexpr double kPatience = 60;  ///< ticks per label without gain
 constexpr std::int64_t kSplitSize = 1000, kSplitDegree = 2;
 constexpr double kPatienceShare = 0.25;
 constexpr std::uint32_t kSmallestWindow = 100, kLargestWindow = 500;
 constexpr std::int64_t kLargeShare = 3, kSmallShare = 10;
 constexpr double kWorthwhile = 3e-4;  ///< share of the value that counts as better for patience
 constexpr std::size_t kPoolSize = 6;
-constexpr double kCoreTicks = 100;  ///< per label of a difference
+constexpr std::size_t kEnds = 8;
+constexpr std::int64_t kMergeShare = 4;  ///< of the work, at most
+constexpr double kCoreTicks = 100;       ///< per label of a difference
 constexpr int kCoreRounds = 3;
 
 /// Gain per tick, with the past discounted.
@@ -65,6 +70,7 @@ public:
           random_(options.seed),
           model_(problem, rows),
           splitter_(model_),
+          merger_(problem, rows, control, options.seed),
           lanes_(model_, start, options.seed, static_cast<std::size_t>(options.lanes),
                  options.threads, control),
           size_(static_cast<std::int64_t>(model_.proposals().size())),
@@ -89,6 +95,8 @@ public:
         LocalSearchStatistics sum;
         sum.climbs = climbs_;
         sum.recombined = recombined_;
+        sum.merges = merger_.statistics.merges;
+        sum.merged = merger_.statistics.improved;
         for (std::size_t k = 0; k < lanes_.size(); ++k) {
             const AnnealerStatistics& s = lanes_.lane(k).statistics;
             sum.moves += s.moves;
@@ -118,6 +126,7 @@ private:
             std::size_t kind = schedule.choose(random_);
             if (schedule.kind(kind).ticks * size_ > before - first) kind = 0;
             run_round(schedule.kind(kind));
+            merge();
             const std::int64_t now = control_.work();
             schedule.credit(kind, static_cast<double>(climb_.value - value),
                             static_cast<double>(now - before));
@@ -133,7 +142,9 @@ private:
 
     /// The first climb starts from what was given, the others from anywhere.
     void begin_climb() {
-        Chain chain{climbs_ == 0 ? options_.start_temperature : kRestartHeat, kColdest, 0, false};
+        Chain chain{climbs_ == 0 ? options_.start_temperature
+                                 : kRestartHeats[climbs_ % kRestartHeats.size()],
+                    kColdest, 0, false};
         chain.ticks = std::min(kFirstTicks * size_, std::max(kFirstMost, kFirstLeast * size_));
         if (climbs_ == 0 && options_.first_chain > 0) chain.ticks = options_.first_chain;
         // Where there is no time for a long chain, heat would only spoil what the start is worth.
@@ -224,10 +235,35 @@ private:
 
     /// All lanes go on from the best of their parts.
     void gather() {
+        gather_ends();
         lanes_.run(1, [&](Annealer& lane, std::size_t) {
             for (std::size_t k = 1; k < lanes_.size(); ++k) lane.merge(lanes_.lane(k).best());
         });
         climb_ = lanes_.lane(0).best();
+        share_best();
+        note();
+    }
+
+    /// The ends of the last chains, what of them was not taken over included.
+    void gather_ends() {
+        for (std::size_t k = 0; k < lanes_.size(); ++k) {
+            const auto changed = lanes_.lane(k).take_changes();
+            if (!options_.merging || changed.empty()) continue;
+            if (ends_.size() == kEnds) ends_.pop_back();
+            ends_.insert(ends_.begin(), climb_.labels);
+            for (const auto& [i, value] : changed) ends_.front()[i] = value;
+        }
+    }
+
+    /// Takes over the best combination of the climb and the last ends.
+    void merge() {
+        if (ends_.size() < 2) return;
+        const std::int64_t before = control_.work();
+        if (kMergeShare * merge_work_ > before - first_work_) return;
+        const Value value = climb_.value;
+        merger_.merge(climb_, ends_);
+        merge_work_ += control_.work() - before;
+        if (climb_.value == value) return;
         share_best();
         note();
     }
@@ -310,14 +346,16 @@ private:
     Random random_;
     SearchModel model_;
     RegionSplitter splitter_;
+    SolutionMerger merger_;
     SearchLanes lanes_;
     const std::int64_t size_;
     Solution best_, climb_;
     std::vector<Solution> pool_;
+    std::vector<SolutionMerger::Labels> ends_;  ///< of chains, latest first
     RecentGain rounds_, outside_;
     Value worthwhile_value_ = 0;  ///< of the best at last_worthwhile_
     std::int64_t climbs_ = 0, recombined_ = 0, first_work_ = 0, last_worthwhile_ = 0,
-                 intensify_work_ = 0;
+                 intensify_work_ = 0, merge_work_ = 0;
 };
 
 struct Switch {
@@ -332,12 +370,13 @@ constexpr std::array kSwitches{
     Switch{"by-worth", &LocalSearchOptions::by_worth},
     Switch{"restarts", &LocalSearchOptions::restarts},
     Switch{"recombination", &LocalSearchOptions::recombination},
+    Switch{"merging", &LocalSearchOptions::merging},
 };
 
 LocalSearchOptions search_options(const SolveOptions& options, std::string_view solver) {
     require_known_extras(options, solver,
                          {"first-chain", "lanes", "reductions", "regions", "windows", "adaptive",
-                          "by-worth", "restarts", "recombination"});
+                          "by-worth", "restarts", "recombination", "merging"});
     LocalSearchOptions search;
     search.seed = options.seed;
     search.threads = options.threads;
@@ -379,6 +418,8 @@ public:
         result.statistics["windows"] = static_cast<double>(statistics.windows);
         result.statistics["climbs"] = static_cast<double>(statistics.climbs);
         result.statistics["recombined"] = static_cast<double>(statistics.recombined);
+        result.statistics["merges"] = static_cast<double>(statistics.merges);
+        result.statistics["merged-parts"] = static_cast<double>(statistics.merged);
         return result;
     }
 };

@@ -33,6 +33,7 @@ struct LocalSearchOptions {
     bool by_worth = true;       ///< some chains are hotter where labels are worth more
     bool restarts = true;       ///< climb anew when a climb comes to nothing
     bool recombination = true;  ///< of a climb's end with those before
+    bool merging = true;        ///< of the ends of the last chains, exactly
 
     /// Gets a third to a tenth of the work, if given: may improve the labeling; the others are the
     /// ends of earlier climbs. Spends its work on the same control.
@@ -40,7 +41,8 @@ struct LocalSearchOptions {
 };
 
 struct LocalSearchStatistics {
-    std::int64_t moves = 0, accepted = 0, chains = 0, windows = 0, climbs = 0, recombined = 0;
+    std::int64_t moves = 0, accepted = 0, chains = 0, windows = 0, climbs = 0, recombined = 0,
+                 merges = 0, merged = 0;
 };
 
 /// Improves a feasible labeling until `control` stops it. Deterministic per seed and work, on any

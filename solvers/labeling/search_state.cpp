@@ -1,9 +1,14 @@
 #include "labeling/search_state.h"
 
+#include <algorithm>
+
 namespace labeling {
 
 SearchState::SearchState(const SearchModel& model, std::span<const std::uint8_t> start)
-    : model_(model), labels_(model.label_count(), 0), nodes_(model.label_count()) {
+    : model_(model),
+      labels_(model.label_count(), 0),
+      nodes_(model.label_count()),
+      marks_(model.label_count(), 0) {
     const RowSystem& rows = model.rows();
     excesses_.reserve(rows.row_count());
     for (std::int32_t row = 0; row < rows.row_count(); ++row) {
@@ -23,7 +28,8 @@ void SearchState::switch_on(Label i) {
     work_ += static_cast<std::int64_t>(neighbours.size() + 2 * partners.size() + 2 * uses.size());
     labels_[i] = 1;
     value_ += nodes_[i].gain;
-    for (Label j : neighbours) ++nodes_[j].blocker_count;
+    const std::uint64_t blocker = as_blocker(i);
+    for (Label j : neighbours) nodes_[j].blockers += blocker;
     for (const auto& b : partners) nodes_[b.label].gain += b.value;
     for (const auto& use : uses) {
         excesses_[use.row] += use.coefficient;
@@ -47,8 +53,10 @@ void SearchState::switch_off(Label i) {
     work_ += static_cast<std::int64_t>(neighbours.size() + 2 * partners.size() + 2 * uses.size());
     labels_[i] = 0;
     value_ -= nodes_[i].gain;
+    const std::uint64_t blocker = as_blocker(i);
     for (Label j : neighbours) {
-        if (--nodes_[j].blocker_count == 0 && kNotesBroken) freed_.push_back(j);
+        nodes_[j].blockers -= blocker;
+        if (kNotesBroken && nodes_[j].blockers == 0) freed_.push_back(j);
     }
     for (const auto& b : partners) nodes_[b.label].gain -= b.value;
     for (const auto& use : uses) {
@@ -69,7 +77,7 @@ void SearchState::flip(Label i) {
 }
 
 bool SearchState::fits(Label i) const {
-    if (nodes_[i].blocker_count > 0) return false;
+    if (nodes_[i].blockers != 0) return false;
     for (const auto& use : model_.uses(i)) {
         if (use.coefficient > 0 && excesses_[use.row] + use.coefficient > 0) return false;
     }
@@ -96,7 +104,7 @@ void SearchState::roll_back() {
 
 void SearchState::clear_marks() {
     if (++mark_ != 0) return;
-    for (Node& node : nodes_) node.mark = 0;
+    std::fill(marks_.begin(), marks_.end(), 0);
     mark_ = 1;
 }
 

@@ -29,7 +29,14 @@ public:
     /// Weight of i plus its bonuses to labels that are on (i itself may be on or off).
     Value gain(Label i) const { return nodes_[i].gain; }
     /// How many conflict partners of i are on.
-    std::int32_t blocker_count(Label i) const { return nodes_[i].blocker_count; }
+    std::int32_t blocker_count(Label i) const {
+        return static_cast<std::int32_t>(nodes_[i].blockers >> kCountShift);
+    }
+    /// Sum of the indices of the conflict partners of i that are on: names the only one.
+    std::int64_t blocker_sum(Label i) const {
+        return static_cast<std::int64_t>(nodes_[i].blockers &
+                                         ((std::uint64_t{1} << kCountShift) - 1));
+    }
     std::int64_t excess(std::int32_t row) const { return excesses_[row]; }
     bool is_broken(const BrokenRule& rule) const {
         if (rule.row >= 0) return excesses_[rule.row] > 0;
@@ -52,19 +59,23 @@ public:
     bool fits(Label i) const;
 
     void clear_marks();
-    void mark(Label i) { nodes_[i].mark = mark_; }
-    bool is_marked(Label i) const { return nodes_[i].mark == mark_; }
+    void mark(Label i) { marks_[i] = mark_; }
+    bool is_marked(Label i) const { return marks_[i] == mark_; }
 
     /// Adjacency entries touched so far.
     std::int64_t work() const { return work_; }
 
 private:
+    /// Count and sum of indices share a word, so that a flip changes both at once.
+    static constexpr int kCountShift = 40;
     /// What moves read together lies together.
     struct Node {
         Value gain = 0;
-        std::int32_t blocker_count = 0;
-        std::uint32_t mark = 0;
+        std::uint64_t blockers = 0;
     };
+    static std::uint64_t as_blocker(Label i) {
+        return (std::uint64_t{1} << kCountShift) + static_cast<std::uint64_t>(i);
+    }
 
     /// Without `kNotesBroken` for flips that lead back to what is feasible.
     template <bool kNotesBroken>
@@ -77,6 +88,7 @@ private:
     const SearchModel& model_;
     std::vector<std::uint8_t> labels_;
     std::vector<Node> nodes_;
+    std::vector<std::uint32_t> marks_;
     std::vector<std::int64_t> excesses_;  ///< activity - right-hand side; violated when > 0
     std::vector<Label> log_;
     std::vector<BrokenRule> broken_rules_;

@@ -13,7 +13,6 @@
 #include <array>
 #include <vector>
 
-#include "labeling/elimination_order.h"
 #include "labeling/greedy.h"
 #include "labeling/rows.h"
 
@@ -346,6 +345,15 @@ std::optional<TreeResult> treewidth_search(const LabelingProblem& problem, RunCo
         }
     }
     return std::nullopt;
+}
+
+std::optional<TreeResult> treewidth_search(const LabelingProblem& problem, const RowSystem& rows,
+                                           const EliminationOrder& order, RunControl& control,
+                                           const TreewidthOptions& options) {
+    TreewidthSearch search(problem, rows, control, order);
+    const double ticks = search.plan(options);
+    if (!search.is_small() || ticks > static_cast<double>(options.most_ticks)) return std::nullopt;
+    return search.run(nullptr);
 }
 
 }  // namespace labeling

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "labeling/elimination_order.h"
 #include "labeling/problem.h"
+#include "labeling/rows.h"
 #include "labeling/run_control.h"
 #include "labeling/tree_search.h"
 
@@ -28,5 +30,10 @@ struct TreewidthStatistics {
 std::optional<TreeResult> treewidth_search(const LabelingProblem& problem, RunControl& control,
                                            const TreewidthOptions& options,
                                            TreewidthStatistics* statistics = nullptr);
+
+/// The same by an order that is given, as elimination_order makes them.
+std::optional<TreeResult> treewidth_search(const LabelingProblem& problem, const RowSystem& rows,
+                                           const EliminationOrder& order, RunControl& control,
+                                           const TreewidthOptions& options);
 
 }  // namespace labeling

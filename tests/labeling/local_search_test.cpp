@@ -14,6 +14,7 @@
 #include "labeling/problems.h"
 #include "labeling/region_splitter.h"
 #include "labeling/run_control.h"
+#include "labeling/solution_merger.h"
 
 namespace labeling_test {
 namespace {
@@ -193,6 +194,82 @@ TEST(RegionSplitterTest, RegionsShareNothing) {
     }
 }
 
+TEST(SolutionMergerTest, FindsTheBestCombination) {
+    std::int64_t gained = 0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        std::mt19937_64 engine(seed);
+        const LabelingProblem problem =
+            seed % 2 == 0 ? frustrated_problem(engine, 14) : random_problem(engine, 14);
+        const auto values = all_values(problem);
+        std::vector<std::size_t> feasible;
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            if (values[k]) feasible.push_back(k);
+        }
+        if (feasible.empty()) continue;
+        auto labels_of = [&](std::size_t index) {
+            labeling::SolutionMerger::Labels labels(problem.label_count());
+            for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = (index >> i) & 1U;
+            return labels;
+        };
+        const auto last = static_cast<std::int64_t>(feasible.size()) - 1;
+        const std::size_t start = feasible[static_cast<std::size_t>(pick(engine, 0, last))];
+        // The others need not be feasible.
+        std::vector<labeling::SolutionMerger::Labels> others;
+        std::size_t varying = 0;
+        for (int k = 0; k < 3; ++k) {
+            const auto most = static_cast<std::int64_t>(values.size()) - 1;
+            const auto other = static_cast<std::size_t>(pick(engine, 0, most));
+            others.push_back(labels_of(other));
+            varying |= other ^ start;
+        }
+        Value best = *values[start];
+        for (std::size_t k : feasible) {
+            if (((k ^ start) & ~varying) == 0) best = std::max(best, *values[k]);
+        }
+        const RowSystem rows(problem);
+        const SolveOptions options;
+        labeling::RunControl control(options);
+        labeling::SolutionMerger merger(problem, rows, control, seed);
+        Solution merged{labels_of(start), *values[start]};
+        merger.merge(merged, others);
+        ASSERT_TRUE(check_solution(problem, merged).message.empty());
+        ASSERT_EQ(merged.value, labeling_value(problem, merged.labels));
+        ASSERT_GE(merged.value, *values[start]);
+        // Fourteen labels are never too wide.
+        EXPECT_EQ(merger.statistics.given_up, 0);
+        EXPECT_EQ(merged.value, best);
+        gained += merged.value > *values[start] ? 1 : 0;
+    }
+    EXPECT_GT(gained, 50);
+}
+
+TEST(SolutionMergerTest, NarrowsWhatIsTooWideAndLosesNothing) {
+    std::int64_t given_up = 0, improved = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const LabelingProblem problem = curves(seed, 8, 20);
+        const RowSystem rows(problem);
+        Solution best = start_of(problem, rows);
+        std::vector<Label> all(problem.label_count());
+        std::iota(all.begin(), all.end(), 0);
+        const SolveOptions options;
+        labeling::RunControl control(options);
+        labeling::SolutionMerger merger(problem, rows, control, seed);
+        for (int k = 0; k < 3; ++k) {
+            const Value before = best.value;
+            merger.merge_window(best, all);
+            ASSERT_GE(best.value, before);
+            ASSERT_EQ(best.value, labeling_value(problem, best.labels));
+            ASSERT_TRUE(check_solution(problem, best).message.empty());
+        }
+        given_up += merger.statistics.given_up;
+        improved += merger.statistics.improved;
+    }
+    EXPECT_GT(given_up, 0);
+    EXPECT_GT(improved, 0);
+}
+
 SolveOptions limited(std::int64_t work) {
     SolveOptions options;
     options.work_limit = work;
@@ -241,7 +318,7 @@ TEST(LocalSearchTest, EveryTechniqueCanBeSwitchedOff) {
     const LabelingProblem problem = curves(2, 4, 15);
     const auto greedy = labeling::make_greedy_solver()->solve(problem, {});
     for (const char* key : {"reductions", "regions", "windows", "adaptive", "by-worth", "restarts",
-                            "recombination"}) {
+                            "recombination", "merging"}) {
         SCOPED_TRACE(key);
         SolveOptions options = limited(300'000);
         options.extra[key] = "off";
