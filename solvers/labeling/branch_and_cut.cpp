@@ -19,6 +19,7 @@
 #include "labeling/greedy.h"
 #include "labeling/local_search.h"
 #include "labeling/node_state.h"
+#include "labeling/rank_two_cuts.h"
 #include "labeling/rows.h"
 #include "labeling/subproblem.h"
 #include "labeling/term_graph.h"
@@ -47,6 +48,7 @@ public:
           state_(problem, propagator_, relaxation_),
           separator_(problem, graph_),
           triples_(problem, rows_, graph_),
+          rank_two_(problem, rows_, graph_),
           best_value_(lower),
           pseudo_costs_(problem.label_count()),
           first_work_(control.work()) {
@@ -158,14 +160,16 @@ private:
             intensify();
             if (is_prunable(root_bound_)) return NodeOutcome::Pruned;
             std::size_t added = rules;
-            if (stalled < 3) added += add_cliques(root_clique_options()) + add_triples();
+            if (stalled < 3) {
+                added += add_cliques(root_clique_options()) + add_triples() + add_rank_two();
+            }
             if (added == 0 || stalled >= 2) {
                 gomory_bounds.push_back(bound);
                 if (is_over_gomory(gomory_bounds, gap) || stalled > 8) return NodeOutcome::Branch;
                 added += add_gomory(gap);
             }
             if (added == 0) return NodeOutcome::Branch;
-            const int age = is_large() ? 2 : 4;
+            const int age = is_large() ? 1 : 2;
             if (round % (age + 1) == age) relaxation_.drop_idle_rows(age);
         }
     }
@@ -199,6 +203,20 @@ private:
         }
         charge(triples_.work() + separator_.work() - before);
         statistics.triple_cuts += static_cast<std::int64_t>(added);
+        return added;
+    }
+
+    std::size_t add_rank_two() {
+        if (!options_.techniques.rank_two_cuts) return 0;
+        RankTwoCutOptions options;
+        if (is_large()) options.max_cuts = 1500;
+        const std::int64_t before = rank_two_.work();
+        std::size_t added = 0;
+        for (Cut& cut : rank_two_.separate(relaxation_.x(), options)) {
+            added += relaxation_.add(std::move(cut)) ? 1 : 0;
+        }
+        charge(rank_two_.work() - before);
+        statistics.rank_two_cuts += static_cast<std::int64_t>(added);
         return added;
     }
 
@@ -703,6 +721,7 @@ private:
     NodeState state_;
     CliqueSeparator separator_;
     TripleSeparator triples_;
+    RankTwoSeparator rank_two_;
     GomoryCutOptions gomory_options_;
     TreeResult result_;
     Value best_value_;
@@ -734,6 +753,7 @@ TreeResult branch_and_cut(const LabelingProblem& problem, const std::optional<So
         statistics->lp_iterations += search.statistics.lp_iterations;
         statistics->clique_cuts += search.statistics.clique_cuts;
         statistics->triple_cuts += search.statistics.triple_cuts;
+        statistics->rank_two_cuts += search.statistics.rank_two_cuts;
         statistics->gomory_cuts += search.statistics.gomory_cuts;
         statistics->rule_rows += search.statistics.rule_rows;
         statistics->fixed_labels += search.statistics.fixed_labels;

@@ -27,8 +27,8 @@ struct BranchAndCutOptions {
 };
 
 struct BranchAndCutStatistics {
-    std::int64_t nodes = 0, lp_iterations = 0, clique_cuts = 0, triple_cuts = 0, gomory_cuts = 0,
-                 rule_rows = 0;
+    std::int64_t nodes = 0, lp_iterations = 0, clique_cuts = 0, triple_cuts = 0, rank_two_cuts = 0,
+                 gomory_cuts = 0, rule_rows = 0;
     std::int64_t fixed_labels = 0;
 };
 

@@ -19,6 +19,7 @@ constexpr std::array kSwitches{
     Switch{"treewidth", &Techniques::treewidth},
     Switch{"clique-cuts", &Techniques::clique_cuts},
     Switch{"triple-cuts", &Techniques::triple_cuts},
+    Switch{"rank-two-cuts", &Techniques::rank_two_cuts},
     Switch{"gomory-cuts", &Techniques::gomory_cuts},
     Switch{"fixing", &Techniques::fixing},
     Switch{"restarts", &Techniques::restarts},
@@ -28,9 +29,10 @@ constexpr std::array kSwitches{
 }  // namespace
 
 Techniques techniques_of(const SolveOptions& options, std::string_view solver) {
-    require_known_extras(options, solver,
-                         {"tree-size", "heuristics", "reductions", "treewidth", "clique-cuts",
-                          "triple-cuts", "gomory-cuts", "fixing", "restarts", "strong-branching"});
+    require_known_extras(
+        options, solver,
+        {"tree-size", "heuristics", "reductions", "treewidth", "clique-cuts", "triple-cuts",
+         "rank-two-cuts", "gomory-cuts", "fixing", "restarts", "strong-branching"});
     Techniques techniques;
     for (const Switch& s : kSwitches) {
         const auto it = options.extra.find(s.key);

@@ -19,6 +19,7 @@ struct Techniques {
     bool treewidth = true;         ///< treewidth_search.h, for narrow parts
     bool clique_cuts = true;       ///< separated ones; those that make the model complete stay
     bool triple_cuts = true;       ///< triple_cuts.h
+    bool rank_two_cuts = true;     ///< rank_two_cuts.h
     bool gomory_cuts = true;       ///< gomory_cuts.h
     bool fixing = true;            ///< of labels by the bounds of their reduced costs
     bool restarts = true;          ///< after fixing at the root

@@ -10,6 +10,7 @@
 #include "labeling/gomory_cuts.h"
 #include "labeling/problems.h"
 #include "labeling/propagation.h"
+#include "labeling/rank_two_cuts.h"
 #include "labeling/registry.h"
 #include "labeling/term_graph.h"
 #include "labeling/triple_cuts.h"
@@ -110,6 +111,7 @@ const Case kCases[] = {
     {"with_treewidth", {{"treewidth", "on"}}},
     {"without_cliques", {{"clique-cuts", "off"}}},
     {"without_triples", {{"triple-cuts", "off"}}},
+    {"without_rank_two", {{"rank-two-cuts", "off"}}},
     {"without_gomory", {{"gomory-cuts", "off"}}},
     {"without_cliques_and_triples", {{"clique-cuts", "off"}, {"triple-cuts", "off"}}},
     {"without_cuts", {{"clique-cuts", "off"}, {"triple-cuts", "off"}, {"gomory-cuts", "off"}}},
@@ -179,6 +181,7 @@ public:
         labeling::Relaxation relaxation(problem_, labeling::clp_factory());
         labeling::CliqueSeparator cliques(problem_, graph);
         labeling::TripleSeparator triples(problem_, rows, graph);
+        labeling::RankTwoSeparator rank_two(problem_, rows, graph);
         SolveOptions options;
         labeling::RunControl control(options);
         add(relaxation, labeling::initial_clique_cuts(problem_, graph, control), "initial");
@@ -192,6 +195,7 @@ public:
             const auto gomory = labeling::gomory_cuts(relaxation, {}, work);
             add(relaxation, cliques.separate(x), "clique");
             add(relaxation, triples.separate(x, cliques, propagator), "triple");
+            add(relaxation, rank_two.separate(x), "rank two");
             add(relaxation, gomory, "gomory");
         }
     }
@@ -251,7 +255,7 @@ TEST(Cuts, HoldForEveryFeasibleLabeling) {
         for (const auto& [kind, count] : rounds.counts) counts[kind] += count;
     }
     // The test means nothing for a kind of cut that never shows up.
-    for (const char* kind : {"initial", "clique", "triple", "gomory"}) {
+    for (const char* kind : {"initial", "clique", "triple", "rank two", "gomory"}) {
         EXPECT_GT(counts[kind], 50) << kind;
         RecordProperty(kind, counts[kind]);
     }

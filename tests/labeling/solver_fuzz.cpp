@@ -118,9 +118,9 @@ Configuration draw(const std::string& solver, std::mt19937_64& engine) {
     c.seed = engine();
     if (c.is_exact() && solver != "cbc") {
         // One technique off, or any subset.
-        const std::vector<std::string> techniques{"heuristics",       "clique-cuts", "triple-cuts",
-                                                  "gomory-cuts",      "fixing",      "restarts",
-                                                  "strong-branching", "reductions",  "treewidth"};
+        const std::vector<std::string> techniques{
+            "heuristics", "clique-cuts", "triple-cuts",      "rank-two-cuts", "gomory-cuts",
+            "fixing",     "restarts",    "strong-branching", "reductions",    "treewidth"};
         const auto count = static_cast<std::int64_t>(techniques.size());
         const std::int64_t off = pick(engine, 0, 2 * count + 1);
         for (std::size_t k = 0; k < techniques.size(); ++k) {
