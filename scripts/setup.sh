@@ -4,7 +4,7 @@
 # shellcheck disable=SC2034,SC2154  # set here and used there, or the other way round
 
 build_folder="$root/build/release"
-mesh_folder="$root/build/meshes"
+mesh_folder="${SCALEFCN_MESHES:-$root/build/meshes}"
 program="$build_folder/bin/scalefcn"
 
 build_packages=(g++ make cmake ninja-build pkg-config libeigen3-dev libopenmesh-dev libcgal-dev

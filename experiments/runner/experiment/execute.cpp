@@ -19,6 +19,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "experiment/best_solution.h"
 #include "experiment/hash.h"
 #include "experiment/instructions.h"
 #include "experiment/process_tree.h"
@@ -210,6 +211,9 @@ Record execute(const Plan& plan, const Job& job, const fs::path& folder,
         const bool is_renamed = !solver.program.empty() && job.renaming != 0;
         const auto asked = labeling::rename_labels(problem, is_renamed ? job.renaming : 0).problem;
         judge(seen, asked, solver, record);
+        if (record.value && record.outcome != Outcome::Wrong && !is_renamed) {
+            keep_if_best(home, planned.hash, seen.solution_file, *record.value);
+        }
     }
     record.provenance = provenance(own_program("labeling-solve"));
     record.provenance["instance"] = planned.hash;

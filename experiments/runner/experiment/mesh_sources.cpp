@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Adaptation stops by work, never by time, or a slow machine would make other problems.
+/// Marks what is complete.
 constexpr const char* kDone = "done";
 
 std::vector<std::string> words_of(const std::string& text) {
@@ -137,7 +137,8 @@ void run_own_program(const std::vector<std::string>& words, const fs::path& log)
 
 std::vector<fs::path> adapted_problems(const MeshSource& mesh, const AdaptRequest& request,
                                        const fs::path& folder) {
-    const fs::path home = folder / "adapted" / adaptation_name(mesh.name, request);
+    const std::string part = request.wants_first_only ? "_first" : "";
+    const fs::path home = folder / "adapted" / (adaptation_name(mesh.name, request) + part);
     const fs::path saved = home / "problems";
     if (!fs::exists(home / kDone)) {
         fs::remove_all(home);
@@ -147,6 +148,9 @@ std::vector<fs::path> adapted_problems(const MeshSource& mesh, const AdaptReques
         for (const std::string& word : detector_words(request.detector)) words.push_back(word);
         words.insert(words.end(), {"--mode", request.mode, "--target", request.target});
         words.insert(words.end(), request.options.begin(), request.options.end());
+        if (request.wants_first_only) {
+            words.insert(words.end(), {"--solver", "greedy", "--max-iterations", "1"});
+        }
         words.insert(words.end(), {"--save-problems", saved.string(), "-q", "--no-timings", "-o",
                                    (home / "network.fcn.json").string()});
         run_own_program(words, home / "log");

@@ -26,6 +26,8 @@ std::vector<MeshSource> mesh_sources(const std::vector<std::string>& patterns,
 struct AdaptRequest {
     std::string scale, detector, mode, target;
     std::vector<std::string> options;
+    /// The first problem does not depend on any solver: one quick round is enough for it.
+    bool wants_first_only = false;
 };
 
 /// "fandisk_vsa200_2pct_best_tri".

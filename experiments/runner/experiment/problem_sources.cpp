@@ -139,7 +139,8 @@ private:
                     for (const std::string& mode : source.modes) {
                         for (const std::string& target : source.targets) {
                             from_mesh(source, mesh,
-                                      {scale, detector, mode, target, source.adapt_options});
+                                      {scale, detector, mode, target, source.adapt_options,
+                                       source.iterations == "first"});
                         }
                     }
                 }
@@ -159,7 +160,7 @@ private:
         tell_("adapting " + name);
         const auto files = adapted_problems(mesh, request, folder_);
         for (std::size_t k = 0; k < files.size(); ++k) {
-            if (k > 0 && source.iterations == "first") break;
+            if (k > 0 && request.wants_first_only) break;
             PlannedProblem one = planned;
             one.name = name + "_" + std::to_string(k + 1);
             one.tags["iteration"] = std::to_string(k + 1);

@@ -79,7 +79,9 @@ std::vector<std::string> program_words(const PlannedProblem& problem, const Solv
         {"time", solver.limits.seconds ? number(*solver.limits.seconds) : ""},
         {"seed", std::to_string(job.seed)},
         {"threads", std::to_string(solver.threads)},
-        {"memory", std::to_string(solver.limits.memory_mib)}};
+        {"memory", std::to_string(solver.limits.memory_mib)},
+        {"sources", source_folder().string()},
+        {"programs", own_program("labeling-solve").parent_path().string()}};
     return labeling::command_words(solver.program, values);
 }
 

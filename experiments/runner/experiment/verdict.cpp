@@ -165,6 +165,7 @@ bool judge_end(const Observed& seen, Record& record) {
     if (said.find("bad_alloc") != std::string::npos) return set(Outcome::OutOfMemory, said);
     // 4 is our own programs' way to say that there is no solution.
     const int code = seen.outcome.exit_code;
+    if (code == 127) return set(Outcome::Missing, said);  // a shell's way to say: no such program
     if (code != 0 && code != 4) {
         return set(Outcome::Crash, "exit code " + std::to_string(code) + quote);
     }
