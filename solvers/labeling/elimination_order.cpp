@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::int64_t kEntriesPerTick = 16;
 constexpr std::size_t kLongestRow = 40;
+constexpr std::int64_t kEntriesPerLabel = 20, kEntriesPerLook = 300'000;
 
 class Elimination {
 public:
@@ -22,13 +23,16 @@ public:
           heap_(problem.label_count()),
           graph_(problem.label_count()) {}
 
-    /// False: a rule is too long.
+    /// False: a rule is too long, or the run is over.
     bool join(const LabelingProblem& problem, const RowSystem& rows) {
         const Label n = problem.label_count();
+        std::int64_t looked_at = 0;
         for (Label i = 0; i < n; ++i) {
             const auto conflicts = problem.conflicts_of(i);
             graph_[i].assign(conflicts.begin(), conflicts.end());
             for (const auto& b : problem.bonuses_of(i)) graph_[i].push_back(b.label);
+            looked_at += static_cast<std::int64_t>(conflicts.size()) + kEntriesPerLabel;
+            if (is_over(looked_at)) return false;
         }
         for (std::int32_t row = 0; row < rows.row_count(); ++row) {
             const auto terms = rows.terms(row);
@@ -43,6 +47,8 @@ public:
             std::sort(neighbours.begin(), neighbours.end());
             neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
             work_ += 4 * static_cast<std::int64_t>(neighbours.size());
+            looked_at += 4 * static_cast<std::int64_t>(neighbours.size());
+            if (is_over(looked_at)) return false;
         }
         for (Label i = 0; i < n; ++i) heap_.set(i, score(i));
         return true;
@@ -77,6 +83,14 @@ public:
     }
 
 private:
+    /// Reads the clock once in a while.
+    bool is_over(std::int64_t& looked_at) {
+        if (looked_at < kEntriesPerLook) return false;
+        looked_at = 0;
+        control_.check();
+        return control_.is_over();
+    }
+
     double score(Label i) {
         const auto& neighbours = graph_[i];
         const auto degree = static_cast<double>(neighbours.size());

@@ -13,6 +13,7 @@
 #include "labeling/greedy.h"
 #include "labeling/part_search.h"
 #include "labeling/propagation.h"
+#include "labeling/reduced_search.h"
 #include "labeling/reductions.h"
 #include "labeling/rows.h"
 #include "labeling/run_control.h"
@@ -23,21 +24,22 @@ namespace labeling {
 namespace {
 
 constexpr std::int64_t kDefaultWork = 300'000'000;
-constexpr Label kLargeProblem = 20000;  ///< labels
 constexpr std::int64_t kPairsPerTick = 16;
 constexpr std::int64_t kReductionTicks = 100;      ///< per label
 constexpr std::int64_t kFirstAllowance = 100'000;  ///< ticks per label of a part
 
 class ExactSearch {
 public:
+    /// `given` is set to what is known before anything else is done, also if a pass is stopped.
     ExactSearch(const LabelingProblem& problem, const SolveOptions& options,
-                const ExactSearchOptions& exact)
+                const ExactSearchOptions& exact, RunControl& control,
+                std::optional<Solution>& given)
         : original_(problem),
           options_(options),
           exact_(exact),
           techniques_(techniques_of(options, exact.name)),
-          control_(options, exact.default_work_limit),
-          given_(first_solution()),
+          control_(control),
+          given_(given = first_solution()),
           reduced_(techniques_.reductions ? std::optional(reduced_problem()) : std::nullopt),
           problem_(reduced_ ? reduced_->problem() : original_),
           warm_start_(start_of_rest()),
@@ -47,6 +49,7 @@ public:
 
     SolveResult run() {
         if (reduced_ && reduced_->is_infeasible()) return infeasible();
+        decomposer_.set_guard(guard());
         if (!propagator_.propagate_all()) return infeasible();
         decided_ = decided_value(problem_, propagator_.values());
         labels_.assign(problem_.label_count(), 0);
@@ -58,6 +61,7 @@ public:
             part.bound = sum_of_gains(part.sub.problem);
             parts_.push_back(std::move(part));
         }
+        decomposer_.set_guard({});
         std::stable_sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
             return a.sub.problem.label_count() < b.sub.problem.label_count();
         });
@@ -123,7 +127,7 @@ private:
     std::optional<Solution> first_solution() {
         const auto& start = options_.warm_start;
         std::optional<Solution> first;
-        if (original_.label_count() > kLargeProblem && techniques_.heuristics) {
+        if (takes_long_to_reduce(original_) && techniques_.heuristics) {
             GreedyOptions greedy;
             greedy.start = start;
             first = greedy_labeling(original_, RowSystem(original_), control_, greedy).solution;
@@ -140,8 +144,11 @@ private:
     /// work than what a sparse problem needs.
     ReducedProblem reduced_problem() {
         RunControl::Cap cap(control_, kReductionTicks * original_.label_count());
-        return reduce_problem(original_, control_);
+        return reduce_problem(original_, control_, {}, guard());
     }
+
+    /// Without any labeling passes go on to the end.
+    PassGuard guard() { return given_ ? PassGuard(control_) : PassGuard(); }
 
     std::vector<std::int8_t> start_of_rest() const {
         std::vector<std::int8_t> start = options_.warm_start;
@@ -252,8 +259,8 @@ private:
     const SolveOptions& options_;
     const ExactSearchOptions& exact_;
     const Techniques techniques_;
-    RunControl control_;
-    const std::optional<Solution> given_;  ///< known before anything else is done
+    RunControl& control_;
+    const std::optional<Solution>& given_;  ///< known before anything else is done
     const std::optional<ReducedProblem> reduced_;
     const LabelingProblem& problem_;  ///< what is left after reductions
     const std::vector<std::int8_t> warm_start_;
@@ -275,7 +282,13 @@ public:
     bool is_exact() const override { return true; }
     SolveResult solve(const LabelingProblem& problem, const SolveOptions& options) const override {
         require_valid_options(problem, options);
-        return ExactSearch(problem, options, options_).run();
+        RunControl control(options, options_.default_work_limit);
+        std::optional<Solution> given;
+        try {
+            return ExactSearch(problem, options, options_, control, given).run();
+        } catch (const StoppedInPass&) {
+            return finish(problem, name(), control, std::move(given), sum_of_gains(problem));
+        }
     }
 
 private:

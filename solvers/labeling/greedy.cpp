@@ -47,6 +47,7 @@ public:
             return std::move(result_);
         }
         root_ = propagator_.trail().size();
+        if (is_start_complete()) return std::move(result_);
         const GreedyRule rule = options_.rule;
         const bool is_best_of = rule == GreedyRule::Best && options_.start.empty();
         construct(rule == GreedyRule::Best ? GreedyRule::Gain : rule);
@@ -57,6 +58,18 @@ public:
     }
 
 private:
+    /// Then nothing is left to choose.
+    bool is_start_complete() {
+        const auto start = options_.start;
+        if (start.empty() || std::count(start.begin(), start.end(), -1) > 0) return false;
+        Solution given{{start.begin(), start.end()}, 0};
+        given.value = labeling_value(problem_, given.labels);
+        control_.spend(static_cast<std::int64_t>(problem_.conflict_count()) / kEntriesPerTick);
+        if (!check_solution(problem_, given).is_feasible) return false;
+        result_.solution = std::move(given);
+        return true;
+    }
+
     Solution solution() const {
         Solution s;
         s.labels.resize(problem_.label_count());
@@ -67,7 +80,13 @@ private:
 
     /// Keeps the labeling by one rule if it is the best so far.
     void construct(GreedyRule rule) {
-        if (!complete(rule)) {
+        bool is_complete = false;
+        try {
+            is_complete = complete(rule);
+        } catch (const StoppedInPass&) {
+            return;
+        }
+        if (!is_complete) {
             ++result_.backtracks;
             dead_end_.assign(propagator_.values().begin(), propagator_.values().end());
         } else if (Solution s = solution();
@@ -81,7 +100,10 @@ private:
     /// False: a dead end.
     bool complete(GreedyRule rule) {
         const Label n = problem_.label_count();
-        GreedyState state(problem_, propagator_, rule);
+        // The first labeling is wanted in any case.
+        const bool may_stop = result_.solution && n > kUninterrupted;
+        GreedyState state(problem_, propagator_, rule,
+                          may_stop ? PassGuard(control_) : PassGuard());
         if (!options_.start.empty()) {
             for (int value : {1, 0}) {
                 for (Label i = 0; i < n; ++i) {

@@ -13,7 +13,8 @@ constexpr double kDisplacedShare = 0.3;
 
 }  // namespace
 
-GreedyState::GreedyState(const LabelingProblem& problem, Propagator& propagator, GreedyRule rule)
+GreedyState::GreedyState(const LabelingProblem& problem, Propagator& propagator, GreedyRule rule,
+                         PassGuard guard)
     : problem_(problem),
       propagator_(propagator),
       rule_(rule),
@@ -23,22 +24,25 @@ GreedyState::GreedyState(const LabelingProblem& problem, Propagator& propagator,
       worth_(problem.label_count(), 0),
       blocked_(problem.label_count(), 0),
       is_changed_(problem.label_count(), 0) {
-    prepare();
+    prepare(guard);
 }
 
-void GreedyState::prepare() {
+void GreedyState::prepare(PassGuard guard) {
     for (Label i = 0; i < problem_.label_count(); ++i) {
         for (const auto& b : problem_.bonuses_of(i)) {
             potential_[i] += 0.5 * static_cast<double>(b.value);
         }
         worth_[i] = std::max(0.0, gain(i));
+        guard.step(static_cast<std::int64_t>(problem_.bonuses_of(i).size()) + 4);
     }
     for (const Conflict& c : problem_.conflicts()) {
         blocked_[c.first] += worth_[c.second];
         blocked_[c.second] += worth_[c.first];
+        guard.step(1);
     }
     for (Label i = 0; i < problem_.label_count(); ++i) {
         if (is_free(i)) heap_.set(i, score(i));
+        guard.step(10);
     }
     work_ += 8 * std::int64_t{problem_.label_count()} +
              static_cast<std::int64_t>(problem_.conflict_count() + problem_.bonus_count());

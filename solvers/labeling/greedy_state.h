@@ -6,6 +6,7 @@
 
 #include "labeling/greedy.h"
 #include "labeling/label_heap.h"
+#include "labeling/pass_guard.h"
 #include "labeling/problem.h"
 #include "labeling/propagation.h"
 
@@ -16,7 +17,9 @@ namespace labeling {
 /// label's adjacency once, and once more for each partner it has a bonus with.
 class GreedyState {
 public:
-    GreedyState(const LabelingProblem& problem, Propagator& propagator, GreedyRule rule);
+    /// May stop in the guard.
+    GreedyState(const LabelingProblem& problem, Propagator& propagator, GreedyRule rule,
+                PassGuard guard);
 
     bool is_free(Label i) const { return propagator_.is_free(i); }
     /// Weight, bonuses to chosen partners, half the bonuses to undecided ones.
@@ -34,7 +37,7 @@ public:
     std::int64_t work() const { return work_; }
 
 private:
-    void prepare();
+    void prepare(PassGuard guard);
     void touch(Label i);
     void set_worth(Label i, double worth);
 

@@ -166,9 +166,12 @@ void ProblemBuilder::set_units_per_one(double units) {
     units_per_one_ = units;
 }
 
-LabelingProblem ProblemBuilder::build() {
+LabelingProblem ProblemBuilder::build(const std::function<void()>& between) {
     ProblemBuilder input;
     std::swap(input, *this);
+    auto pause = [&] {
+        if (between) between();
+    };
     LabelingProblem p;
     const std::size_t n = input.weights_.size();
     std::uint64_t total = 0;
@@ -194,20 +197,25 @@ LabelingProblem ProblemBuilder::build() {
     if (!std::is_sorted(p.conflicts_.begin(), p.conflicts_.end(), by_pair)) {
         std::sort(p.conflicts_.begin(), p.conflicts_.end(), by_pair);
     }
+    pause();
     p.conflicts_.erase(std::unique(p.conflicts_.begin(), p.conflicts_.end()), p.conflicts_.end());
 
     std::vector<std::size_t> counts(n, 0);
+    pause();
     for (const Conflict& c : p.conflicts_) {
         ++counts[c.first];
         ++counts[c.second];
     }
+    pause();
     p.conflict_begin_ = offsets(counts);
     p.conflict_adjacency_.resize(2 * p.conflicts_.size());
     std::vector<std::size_t> next(p.conflict_begin_.begin(), p.conflict_begin_.end() - 1);
     // Sorted by (first, second): smaller partners arrive before larger ones, so lists ascend.
     for (const Conflict& c : p.conflicts_) p.conflict_adjacency_[next[c.second]++] = c.first;
+    pause();
     for (const Conflict& c : p.conflicts_) p.conflict_adjacency_[next[c.first]++] = c.second;
 
+    pause();
     if (!std::is_sorted(input.bonuses_.begin(), input.bonuses_.end(), by_pair)) {
         std::stable_sort(input.bonuses_.begin(), input.bonuses_.end(), by_pair);
     }
@@ -230,6 +238,7 @@ LabelingProblem ProblemBuilder::build() {
         ++counts[b.first];
         ++counts[b.second];
     }
+    pause();
     p.bonus_begin_ = offsets(counts);
     p.bonus_adjacency_.resize(2 * p.bonuses_.size());
     next.assign(p.bonus_begin_.begin(), p.bonus_begin_.end() - 1);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -127,8 +128,9 @@ public:
     void add_rule(Rule rule);
     void set_units_per_one(double units);
     Label label_count() const { return static_cast<Label>(weights_.size()); }
-    /// Leaves the builder empty.
-    LabelingProblem build();
+    /// Leaves the builder empty. `between` (may be empty) is called between its passes and may
+    /// throw.
+    LabelingProblem build(const std::function<void()>& between = {});
 
 private:
     std::vector<Value> weights_;

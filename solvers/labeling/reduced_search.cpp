@@ -10,6 +10,8 @@ namespace {
 
 /// Reductions get so much of the work, at most.
 constexpr std::int64_t kReductionShare = 8;
+constexpr Label kLargeProblem = 20000;  ///< labels
+constexpr std::size_t kLargeConflicts = 200'000;
 
 std::optional<Solution> greedy_start(const LabelingProblem& problem, const RowSystem& rows,
                                      RunControl& control, std::span<const std::int8_t> labels,
@@ -23,15 +25,20 @@ std::optional<Solution> greedy_start(const LabelingProblem& problem, const RowSy
 
 }  // namespace
 
+bool takes_long_to_reduce(const LabelingProblem& problem) {
+    return problem.label_count() > kLargeProblem || problem.conflict_count() > kLargeConflicts;
+}
+
 ReducedSearchResult search_reduced(const LabelingProblem& problem, const SolveOptions& options,
                                    RunControl& control, bool is_reducing, const Improve& improve) {
     ReducedSearchResult result;
     std::optional<Solution> given;
-    if (!is_reducing || !options.warm_start.empty()) {
+    const bool is_wanted_first = takes_long_to_reduce(problem);
+    if (!is_reducing || is_wanted_first || !options.warm_start.empty()) {
         const RowSystem rows(problem);
         given = greedy_start(problem, rows, control, options.warm_start, result);
         if (given) control.report(given->value, std::nullopt);
-        if (!given || !is_reducing) {
+        if (result.is_infeasible || !is_reducing) {
             const auto report = [&](Value value) { control.report(value, std::nullopt); };
             if (given) result.solution = improve(problem, rows, std::move(*given), report);
             return result;
@@ -40,14 +47,20 @@ ReducedSearchResult search_reduced(const LabelingProblem& problem, const SolveOp
     std::optional<ReducedProblem> reduced;
     {
         RunControl::Cap cap(control, control.work_left() / kReductionShare);
-        reduced = reduce_problem(problem, control);
+        try {
+            reduced =
+                reduce_problem(problem, control, {}, given ? PassGuard(control) : PassGuard());
+        } catch (const StoppedInPass&) {
+            result.solution = std::move(given);
+            return result;
+        }
     }
     if (reduced->is_infeasible()) {
         result.is_infeasible = true;
         return result;
     }
     std::vector<std::int8_t> start;
-    if (given) {
+    if (given && !options.warm_start.empty()) {
         start.assign(given->labels.begin(), given->labels.end());
         start = reduced->project(start);
     }

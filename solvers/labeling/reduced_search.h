@@ -20,6 +20,9 @@ struct ReducedSearchResult {
 using Improve = std::function<Solution(const LabelingProblem& problem, const RowSystem& rows,
                                        Solution start, const std::function<void(Value)>& report)>;
 
+/// So long that a labeling is wanted before.
+bool takes_long_to_reduce(const LabelingProblem& problem);
+
 /// The frame of the heuristics: reductions (unless switched off), greedy, `improve` on what is
 /// left, lifting. Never worse than a feasible warm start.
 ReducedSearchResult search_reduced(const LabelingProblem& problem, const SolveOptions& options,

@@ -33,7 +33,7 @@ void erase_key(std::vector<Entry>& entries, Key key, KeyOf key_of) {
 
 }  // namespace
 
-ReductionState::ReductionState(const LabelingProblem& problem)
+ReductionState::ReductionState(const LabelingProblem& problem, PassGuard guard)
     : problem_(problem),
       weights_(problem.weights().begin(), problem.weights().end()),
       potentials_(weights_),
@@ -51,6 +51,7 @@ ReductionState::ReductionState(const LabelingProblem& problem)
         bonuses_[i].assign(bonuses.begin(), bonuses.end());
         uses_[i].reserve(problem.rules_of(i).size());
         total_ += std::abs(problem.weight(i));
+        guard.step(static_cast<std::int64_t>(conflicts.size()) + kEntriesPerLabel / 4);
     }
     for (const Bonus& b : problem.bonuses()) {
         total_ += b.value;
@@ -365,7 +366,7 @@ std::int32_t ReductionState::next_row() {
     return -1;
 }
 
-ReducedProblem ReductionState::take_result() {
+ReducedProblem ReductionState::take_result(PassGuard guard) {
     ProblemBuilder builder;
     builder.set_units_per_one(problem_.units_per_one());
     if (!is_infeasible()) {
@@ -382,6 +383,7 @@ ReducedProblem ReductionState::take_result() {
             for (const Partner& b : bonuses_[i]) {
                 if (b.label > i) builder.add_bonus(renamed[i], renamed[b.label], b.value);
             }
+            guard.step(static_cast<std::int64_t>(conflicts_[i].size() + bonuses_[i].size()));
         }
         for (const Row& row : rows_) {
             if (!row.is_alive) continue;
@@ -390,7 +392,7 @@ ReducedProblem ReductionState::take_result() {
             builder.add_rule(std::move(rule));
         }
     }
-    result_.problem_ = builder.build();
+    result_.problem_ = builder.build([&] { guard.look(); });
     const auto removed = [](std::size_t before, std::size_t after) {
         return static_cast<std::int64_t>(before) - static_cast<std::int64_t>(after);
     };

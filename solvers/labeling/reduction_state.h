@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "labeling/pass_guard.h"
 #include "labeling/problem.h"
 #include "labeling/reductions.h"
 
@@ -25,7 +26,8 @@ public:
         bool is_alive = true;
     };
 
-    explicit ReductionState(const LabelingProblem& problem);
+    /// Both may stop in the guard.
+    ReductionState(const LabelingProblem& problem, PassGuard guard);
 
     Label label_count() const { return static_cast<Label>(weights_.size()); }
     bool is_alive(Label i) const { return is_alive_[i] != 0; }
@@ -78,7 +80,7 @@ public:
     Label next_label();
     std::int32_t next_row();
 
-    ReducedProblem take_result();
+    ReducedProblem take_result(PassGuard guard);
     ReductionStatistics& statistics() { return result_.statistics_; }
     std::int64_t work = 0;  ///< adjacency entries touched so far
 

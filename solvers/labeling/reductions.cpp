@@ -33,8 +33,9 @@ constexpr std::array kFamilies{
 
 class Reducer {
 public:
-    Reducer(const LabelingProblem& problem, RunControl& control, const ReductionOptions& options)
-        : control_(control), options_(options), state_(problem) {}
+    Reducer(const LabelingProblem& problem, RunControl& control, const ReductionOptions& options,
+            PassGuard guard)
+        : control_(control), options_(options), guard_(guard), state_(problem, guard) {}
 
     ReducedProblem run() {
         state_.settle();
@@ -49,7 +50,7 @@ public:
             state_.settle();
         }
         control_.spend((state_.work - charged_) / kEntriesPerTick);
-        return state_.take_result();
+        return state_.take_result(guard_);
     }
 
 private:
@@ -71,6 +72,7 @@ private:
 
     RunControl& control_;
     const ReductionOptions& options_;
+    const PassGuard guard_;
     ReductionState state_;
     std::int64_t charged_ = 0;
 };
@@ -116,8 +118,8 @@ std::vector<std::int8_t> ReducedProblem::project(std::span<const std::int8_t> st
 }
 
 ReducedProblem reduce_problem(const LabelingProblem& problem, RunControl& control,
-                              const ReductionOptions& options) {
-    return Reducer(problem, control, options).run();
+                              const ReductionOptions& options, PassGuard guard) {
+    return Reducer(problem, control, options, guard).run();
 }
 
 }  // namespace labeling

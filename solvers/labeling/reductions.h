@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "labeling/pass_guard.h"
 #include "labeling/problem.h"
 #include "labeling/run_control.h"
 #include "labeling/solution.h"
@@ -74,6 +75,6 @@ private:
 /// Applies every reduction until none is left or `control` stops; what has been done by then
 /// counts. Rules stay <= rows of small integers; weights may become negative.
 ReducedProblem reduce_problem(const LabelingProblem& problem, RunControl& control,
-                              const ReductionOptions& options = {});
+                              const ReductionOptions& options = {}, PassGuard guard = {});
 
 }  // namespace labeling

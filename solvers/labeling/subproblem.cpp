@@ -49,6 +49,7 @@ std::vector<std::vector<Label>> Decomposer::parts(const Propagator& propagator) 
             if (b.label > i && propagator.is_free(b.label)) join(i, b.label);
         }
         work_ += static_cast<std::int64_t>(neighbours.size()) + 1;
+        guard_.step(static_cast<std::int64_t>(neighbours.size()) + 10);
         for (const auto& use : rows_.uses(i)) {
             // The first free label of the row speaks for it.
             const auto terms = rows_.terms(use.row);
@@ -97,6 +98,7 @@ Subproblem Decomposer::extract(const Propagator& propagator, std::span<const Lab
             }
         }
         work_ += static_cast<std::int64_t>(problem_.conflicts_of(i).size());
+        guard_.step(static_cast<std::int64_t>(problem_.conflicts_of(i).size()) + 10);
     }
     std::vector<std::int32_t> open;
     for (Label i : members) {
@@ -117,7 +119,7 @@ Subproblem Decomposer::extract(const Propagator& propagator, std::span<const Lab
         work_ += static_cast<std::int64_t>(rule.terms.size());
         builder.add_rule(std::move(rule));
     }
-    sub.problem = builder.build();
+    sub.problem = builder.build([this] { guard_.look(); });
     return sub;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "labeling/pass_guard.h"
 #include "labeling/problem.h"
 #include "labeling/propagation.h"
 #include "labeling/rows.h"
@@ -24,6 +25,8 @@ struct Subproblem {
 class Decomposer {
 public:
     Decomposer(const LabelingProblem& problem, const RowSystem& rows);
+    /// Of the passes from now on.
+    void set_guard(PassGuard guard) { guard_ = guard; }
 
     /// Undecided labels grouped by part, each ascending, parts ordered by first label.
     std::vector<std::vector<Label>> parts(const Propagator& propagator);
@@ -44,6 +47,7 @@ private:
     std::vector<Label> parent_, local_;
     std::vector<std::int32_t> part_of_;
     std::int64_t work_ = 0;
+    PassGuard guard_;
 };
 
 /// Value of what is decided: weights of labels that are on and bonuses between them.
