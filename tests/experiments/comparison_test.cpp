@@ -304,6 +304,20 @@ TEST(Scaling, ExponentOfExactSolversOverProvenProblems) {
     EXPECT_NEAR(found[0].law->exponent, 2, 1e-9);
 }
 
+TEST(Scaling, RunsThatALimitEndedSayNothingOfOthers) {
+    CampaignBuilder b;
+    const auto search = b.solver("search"), greedy = b.solver("greedy");
+    for (const int labels : {100, 200, 400}) {
+        const auto p = b.problem("p" + std::to_string(labels), "mesh", labels);
+        b.feasible(p, search, 100, {}, 3);
+        b.feasible(p, greedy, 90, {}, 0.001 * labels).stop_reason = "finished";
+    }
+    const auto found = scalings(b.runs, compare_solvers(b.runs));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].solver, greedy);
+    EXPECT_NEAR(found[0].law->exponent, 1, 1e-9);
+}
+
 TEST(Study, ChangedSegments) {
     EXPECT_DOUBLE_EQ(changed_share({"a", "b", "c"}, {"c", "b", "a"}), 0);
     EXPECT_DOUBLE_EQ(changed_share({"a", "b"}, {"b", "c"}), 1 - 1 / 3.0);

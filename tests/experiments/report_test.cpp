@@ -288,6 +288,22 @@ TEST(Report, SaysWhatIsMissingAndHowToGetIt) {
     EXPECT_NE(text.find("0123abcd"), std::string::npos);
 }
 
+TEST(Report, FailuresAreListedWithWhatTheySaid) {
+    const PythonIs none(kNoPython);
+    const labeling::ScratchFolder scratch;
+    CampaignBuilder b;
+    const auto s = b.solver("fragile");
+    b.run(b.problem("p"), s, Outcome::Crash, 1).message = "died of signal 11";
+    b.run(b.problem("q"), s, Outcome::OutOfMemory, 1).message = "over its memory limit";
+    std::ofstream(scratch.path() / "solver_versions.json") << "{\"glpk\": \"GLPK 5.0\"}";
+    write_report(b.runs, scratch.path() / "report");
+    const std::string text = read_text_file(scratch.path() / "report" / "report.md");
+    EXPECT_NE(text.find("fragile: runs on 1 problem crashed: p. It says: died of signal 11."),
+              std::string::npos);
+    EXPECT_NE(text.find("ran out of memory: q"), std::string::npos);
+    EXPECT_NE(text.find("| glpk | GLPK 5.0 |"), std::string::npos);
+}
+
 TEST(Report, AnEmptyCampaignHasAReport) {
     const labeling::ScratchFolder scratch;
     CampaignBuilder b;

@@ -210,6 +210,8 @@ Cell summarise(const std::vector<RunReading>& readings, double horizon) {
     cell.made = readings.size();
     const auto proven = std::count_if(readings.begin(), readings.end(),
                                       [](const RunReading& r) { return r.is_proven; });
+    cell.was_stopped = std::any_of(readings.begin(), readings.end(),
+                                   [](const RunReading& r) { return r.was_stopped; });
     cell.is_proven = 2 * static_cast<std::size_t>(proven) > readings.size();
     cell.seconds = median_over(readings, [](const RunReading& r) { return r.seconds; });
     cell.counted = median_over(readings, [](const RunReading& r) { return r.counted(); });

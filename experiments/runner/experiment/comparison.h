@@ -26,6 +26,7 @@ struct Cell {
     bool is_planned = false;
     std::size_t made = 0;
     bool is_proven = false;                    ///< in more than half of the runs
+    bool was_stopped = false;                  ///< by a limit of time or work, in any of them
     double seconds = 0;                        ///< of all runs, as measured
     double counted = 0;                        ///< runs without a proof at the limit
     double par10 = 0;                          ///< the same at ten times the limit

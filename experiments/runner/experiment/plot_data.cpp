@@ -253,7 +253,7 @@ private:
         if (series.empty()) return;
         add("scaling", "time-size", "points", "Time against size",
             "Time against the number of labels: problems proven by exact solvers; for the others, "
-            "runs that ended before their limit. Lines are least squares of logarithms. Problems "
+            "runs that no limit ended. Lines are least squares of logarithms. Problems "
             "that were not finished are missing at the upper right, so exponents are too low where "
             "there are many.",
             {{"series", series}, {"x", axis("labels", "log")}, {"y", axis(clock_, "log")}});
@@ -372,20 +372,17 @@ std::vector<Block> PlotData::of_section(const std::string& id) const {
 }
 
 std::vector<Scaling> scalings(const CampaignRuns& campaign, const Comparison& comparison) {
-    constexpr double kNearLimit = 0.9;
     const Plan& plan = campaign.plan;
-    const RunReader reader(campaign, comparison.check);
     std::vector<Scaling> result;
     for (std::size_t s = 0; s < plan.solvers.size(); ++s) {
         Scaling scaling;
         scaling.solver = s;
-        const double limit = kNearLimit * reader.limit(plan.solvers[s]);
         for (std::size_t p = 0; p < plan.problems.size(); ++p) {
             const Cell& cell = comparison.cells[s][p];
             if (cell.standing != Standing::Taken || plan.problems[p].labels < 1) continue;
             const bool is_done = comparison.solvers[s].is_exact
                                      ? cell.is_proven
-                                     : cell.value.has_value() && cell.seconds < limit;
+                                     : cell.value.has_value() && !cell.was_stopped;
             if (!is_done || cell.seconds <= 0) continue;
             scaling.points.emplace_back(static_cast<double>(plan.problems[p].labels), cell.seconds);
         }

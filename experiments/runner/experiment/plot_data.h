@@ -19,8 +19,8 @@ struct PlotData {
     std::vector<Block> of_section(const std::string& id) const;
 };
 
-/// Times against sizes of a solver: proven runs of exact solvers; of others, runs that ended before
-/// their limit by themselves.
+/// Times against sizes of a solver: proven runs of exact solvers; of others, runs that no limit
+/// ended.
 struct Scaling {
     std::size_t solver = 0;
     Points points;  ///< labels and seconds, one a problem

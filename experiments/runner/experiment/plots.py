@@ -54,7 +54,7 @@ def draw_points(axes, figure):
     for series in figure["series"]:
         colour, dashes, marker = look(series["index"])
         axes.scatter(series["x"], series["y"], s=22, color=colour, marker=marker, alpha=0.75,
-                     linewidths=0, label=series["name"])
+                     linewidths=0, clip_on=False, label=series["name"])
         if "fit" in series:
             axes.plot(series["fit"]["x"], series["fit"]["y"], color=colour, linestyle=dashes,
                       linewidth=1.2)
@@ -91,11 +91,18 @@ def draw_boxes(axes, figure):
                      whiskerprops={"color": colour}, capprops={"color": colour})
         # Apart from each other by their place in the list, not by chance.
         spread = [at + 0.2 * (((7 * k) % 11) / 5 - 1) for k in range(len(series["y"]))]
-        axes.scatter(series["y"], spread, s=9, color=colour, marker=marker, linewidths=0, alpha=0.6)
+        axes.scatter(series["y"], spread, s=9, color=colour, marker=marker, linewidths=0, alpha=0.6,
+                     clip_on=False)
     name_rows(axes, [series["name"] for series in figure["series"]])
 
 
 DRAW = {"lines": draw_lines, "points": draw_points, "bars": draw_bars, "boxes": draw_boxes}
+
+
+def between_powers(value, _):
+    """Labels 2 and 5 times a power of ten alone."""
+    digits = f"{value:.0e}"[0]
+    return f"{value:g}" if digits in "25" else ""
 
 
 def set_axis(axes, which, axis):
@@ -112,8 +119,8 @@ def set_axis(axes, which, axis):
         side.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
         low, high = side.get_view_interval()
         is_narrow = scale == "log" and high / max(low, 1e-300) < 30
-        side.set_minor_formatter(ticker.LogFormatter(labelOnlyBase=False, minor_thresholds=(2, 1))
-                                 if is_narrow else ticker.NullFormatter())
+        side.set_minor_formatter(ticker.FuncFormatter(between_powers) if is_narrow
+                                 else ticker.NullFormatter())
     if axis.get("is_count"):
         (axes.xaxis if which == "x" else axes.yaxis).set_major_locator(
             ticker.MaxNLocator(integer=True))

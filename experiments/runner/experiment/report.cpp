@@ -2,6 +2,8 @@
 // files and plots. Nothing in it depends on when or where it is made: equal records, equal bytes.
 #include "experiment/report.h"
 
+#include <fstream>
+#include <map>
 #include <set>
 
 #include "experiment/comparison.h"
@@ -73,6 +75,18 @@ Document alarm(const CampaignRuns& campaign, const std::vector<Contradiction>& c
     return document;
 }
 
+/// What the runner found out of solvers that are programs, when the campaign began.
+std::map<std::string, std::string> solver_versions_of(const fs::path& home) {
+    std::map<std::string, std::string> versions;
+    std::ifstream in(home / "solver_versions.json");
+    const auto json = nlohmann::json::parse(in, nullptr, false);
+    if (!json.is_object()) return versions;
+    for (const auto& [name, version] : json.items()) {
+        if (version.is_string()) versions[name] = version.get<std::string>();
+    }
+    return versions;
+}
+
 Document document_of(const ReportInput& input, const std::string& note) {
     Document document;
     document.title = input.campaign.plan.name;
@@ -104,8 +118,8 @@ ReportResult write_whole_report(const CampaignRuns& campaign, const fs::path& fo
         writer.write(alarm(campaign, comparison.check.contradictions), {});
         return std::move(writer.result);
     }
-    const StudyComparison study =
-        compare_studies(campaign, fs::absolute(folder / "..").lexically_normal());
+    const fs::path home = fs::absolute(folder / "..").lexically_normal();
+    const StudyComparison study = compare_studies(campaign, home);
     PlotData plots;
     add_solver_plots(campaign, comparison, plots);
     add_study_plots(campaign, study, plots);
@@ -117,7 +131,9 @@ ReportResult write_whole_report(const CampaignRuns& campaign, const fs::path& fo
         writer.result.files.push_back(folder / "plots" / (name + ".svg"));
         writer.result.files.push_back(folder / "plots" / (name + ".pdf"));
     }
-    writer.write(document_of({campaign, comparison, study, plots}, drawn.note), drawn.svg);
+    const auto versions = solver_versions_of(home);
+    writer.write(document_of({campaign, comparison, study, plots, versions}, drawn.note),
+                 drawn.svg);
     writer.write("runs.csv", runs_csv(campaign, comparison));
     writer.write("problems.csv", problems_csv(campaign, comparison));
     writer.write("pairs.csv", pairs_csv(campaign, comparison));

@@ -50,7 +50,7 @@ private:
 
     void add(const Figure& figure) {
         if (!plots_.contains(figure.name)) return;
-        out_ << "![" << escaped(figure.caption) << "](plots/" << figure.name << ".svg)\n\n";
+        out_ << "![" << escaped(figure.name) << "](plots/" << figure.name << ".svg)\n\n";
         out_ << "*" << escaped(figure.caption) << "*\n\n";
     }
 

@@ -43,6 +43,7 @@ std::string decimal_text(double number, int digits) {
 
 std::string seconds_text(double seconds) {
     if (std::isnan(seconds)) return kDash;
+    if (seconds > 0 && seconds < 0.0005) return "<0.001";
     return decimal_text(seconds, std::min(3, digits_for(seconds)));
 }
 

@@ -115,6 +115,48 @@ void add_gurobi(const ReportInput& input, Document& document) {
     add_section(document, std::move(section));
 }
 
+/// Runs that failed, by solver and kind, with what was said.
+void add_failures(const ReportInput& input, Document& document) {
+    static const std::vector<std::pair<Outcome, const char*>> kFailures{
+        {Outcome::Crash, "crashed"},
+        {Outcome::Timeout, "ended from outside, over the time"},
+        {Outcome::OutOfMemory, "ran out of memory"},
+        {Outcome::DiskFull, "wrote more than they may"}};
+    const Plan& plan = input.campaign.plan;
+    BulletList list;
+    for (std::size_t s = 0; s < plan.solvers.size(); ++s) {
+        for (const auto& [outcome, verb] : kFailures) {
+            const NotTaken found = not_taken(input.campaign, s, outcome);
+            if (found.problems.empty()) continue;
+            list.items.push_back(plan.solvers[s].name + ": runs on " +
+                                 counted(found.problems.size(), "problem ", "problems ") + verb +
+                                 ": " + listed(found.problems) + "." +
+                                 quoted_messages(found.messages));
+        }
+    }
+    if (list.items.empty()) return;
+    add_section(document, {"Failures",
+                           "failures",
+                           {Paragraph{"Unsolved at the limit, in all tables."}, std::move(list)}});
+}
+
+/// Runs of more than a second whose processes had to share their processor.
+std::string starved_runs(const CampaignRuns& campaign) {
+    constexpr double kShare = 0.8;
+    std::size_t starved = 0, long_runs = 0;
+    for (const auto& record : campaign.records) {
+        if (!record || record->measures.wall_seconds < 1) continue;
+        const Measures& m = record->measures;
+        ++long_runs;
+        starved += m.user_seconds + m.system_seconds < kShare * m.wall_seconds;
+    }
+    if (starved == 0) return "";
+    return std::to_string(starved) + " of the " + counted(long_runs, "run", "runs") +
+           " that lasted a second or more had less than 80% of one processor: they waited, for "
+           "other work on the machine or for the disk. Limits of time are of the clock on the "
+           "wall, so these runs were given less than the others.";
+}
+
 void add_wrong(const ReportInput& input, Document& document) {
     const auto& wrong = input.comparison.check.wrong_jobs;
     if (wrong.empty()) return;
@@ -184,11 +226,14 @@ Table outcome_table(const ReportInput& input) {
     return table;
 }
 
+/// A row for each value of what was found out once, not run by run.
 Table provenance_table(const CampaignRuns& campaign) {
+    static const std::set<std::string> kOfEachRun{"instance", "seed", "renaming", "command"};
     std::map<std::string, std::map<std::string, std::size_t>> values;
     for (const auto& record : campaign.records) {
         if (!record || !record->provenance.is_object()) continue;
         for (const auto& [key, value] : record->provenance.items()) {
+            if (kOfEachRun.contains(key)) continue;
             ++values[key][value.is_string() ? value.get<std::string>() : value.dump()];
         }
     }
@@ -236,11 +281,14 @@ void add_overview(const ReportInput& input, Document& document) {
                              plan.solvers[baseline].name + ", " +
                              std::to_string(input.comparison.solvers[baseline].proven) + ".");
     }
+    const std::string starved = starved_runs(input.campaign);
+    if (!starved.empty()) list.items.push_back(starved);
     Section section{"At a glance", "overview", {}};
     section.blocks.emplace_back(std::move(list));
     section.blocks.emplace_back(outcome_table(input));
     add_section(document, std::move(section));
     add_wrong(input, document);
+    add_failures(input, document);
 }
 
 void add_gaps_in_the_record(const ReportInput& input, Document& document) {
@@ -315,6 +363,11 @@ void add_method(const ReportInput& input, Document& document) {
     Section section{"How this was counted", "method", {}};
     section.blocks.emplace_back(std::move(rules));
     section.blocks.emplace_back(provenance_table(input.campaign));
+    if (!input.versions.empty()) {
+        Table table{{"solver", "version"}, {}, "Solvers that are programs of their own.", false};
+        for (const auto& [name, version] : input.versions) table.rows.push_back({name, version});
+        section.blocks.emplace_back(std::move(table));
+    }
     add_section(document, std::move(section));
 }
 

@@ -13,6 +13,7 @@ struct ReportInput {
     const Comparison& comparison;
     const StudyComparison& study;
     const PlotData& plots;
+    const std::map<std::string, std::string>& versions;  ///< of solvers that are programs
 };
 
 /// Adds a section when it has anything to say.

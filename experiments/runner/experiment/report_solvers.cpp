@@ -25,7 +25,8 @@ void mark_best(Table& table, std::size_t column, bool is_smallest, std::size_t r
     if (best == worst) return;
     for (std::size_t r = 0; r < rows; ++r) {
         TableCell& cell = table.rows[r][column];
-        cell.is_best = cell.number == best;
+        // What is printed alike is as good.
+        cell.is_best = cell.number && std::abs(*cell.number - best) <= 0.005 * std::abs(best);
     }
 }
 

@@ -70,6 +70,8 @@ RunReading RunReader::read(std::size_t job) const {
     const ProblemKnowledge& known = check_.problems[campaign_.plan.jobs[job].problem];
     reading.has_value = is_solved(record->outcome) && record->value;
     reading.is_proven = experiment::is_proven(*record, solver);
+    reading.was_stopped =
+        record->stop_reason == "time-limit" || record->stop_reason == "work-limit";
     reading.seconds = seconds(*record);
     reading.limit = limit(solver);
     if (reading.has_value) reading.value = record->value;

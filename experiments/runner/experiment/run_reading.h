@@ -17,10 +17,11 @@ enum class Standing { NotRun, NotApplicable, Missing, Taken };
 /// A run under the campaign's rules of counting.
 struct RunReading {
     Standing standing = Standing::NotRun;
-    bool has_value = false;  ///< ended by itself with labels that passed the check
-    bool is_proven = false;  ///< its claim closes the gap that was allowed; or infeasible
-    double seconds = 0;      ///< measured, by the campaign's clock
-    double limit = 0;        ///< seconds that an unsolved run counts
+    bool has_value = false;    ///< ended by itself with labels that passed the check
+    bool is_proven = false;    ///< its claim closes the gap that was allowed; or infeasible
+    bool was_stopped = false;  ///< by a limit of time or work
+    double seconds = 0;        ///< measured, by the campaign's clock
+    double limit = 0;          ///< seconds that an unsolved run counts
     std::optional<std::int64_t> value;
     double gap_to_best = 1;   ///< 1 without a value; NaN when no solution is known
     double gap_to_bound = 1;  ///< 1 without a value; NaN when no bound is known
