@@ -1,8 +1,11 @@
 // Clp's dual simplex behind LpEngine. Clp minimises, so objective, multipliers and reduced costs
 // change sign on the way in and out. Scaling is off: coefficients are small integers, and
-// multipliers come out as they are. Work areas and factorization are kept between solves.
+// multipliers come out as they are. Work areas and factorization are kept between solves. Rows that
+// are tight when they leave take as many columns out of the basis as needed, chosen here: Clp's own
+// repair loses dual feasibility and goes on with thousands of iterations of the primal simplex.
 #include <ClpEventHandler.hpp>
 #include <ClpSimplex.hpp>
+#include <CoinFactorization.hpp>
 #include <algorithm>
 #include <cmath>
 
@@ -57,7 +60,13 @@ public:
 
     void remove_rows(std::span<const std::int32_t> rows) override {
         flush_pending();
-        if (!rows.empty()) simplex_.deleteRows(static_cast<int>(rows.size()), rows.data());
+        if (rows.empty()) return;
+        const bool has_basis = simplex_.statusArray() != nullptr;
+        const bool is_any_tight = has_basis && std::any_of(rows.begin(), rows.end(), [&](int r) {
+                                      return simplex_.getRowStatus(r) != ClpSimplex::basic;
+                                  });
+        if (is_any_tight) shrink_basis(rows);
+        simplex_.deleteRows(static_cast<int>(rows.size()), rows.data());
     }
 
     void set_bounds(std::int32_t column, double lower, double upper) override {
@@ -192,6 +201,59 @@ private:
         pending_columns_.clear();
         pending_coefficients_.clear();
         pending_starts_.assign(1, 0);
+    }
+
+    /// Leaves as many basic as rows stay. Rows without a multiplier do not enter into the equations
+    /// of the multipliers, so these stay what they are whichever independent columns are kept: the
+    /// pivots of a factorization of the rows that stay, filled up with empty ones to be square.
+    void shrink_basis(std::span<const std::int32_t> removed) {
+        const int columns = simplex_.numberColumns(), rows = simplex_.numberRows();
+        CoinPackedMatrix matrix(*simplex_.matrix());
+        matrix.deleteRows(static_cast<int>(removed.size()), removed.data());
+        matrix.setDimensions(rows, columns);
+        std::vector<int> kept, row_pivots(rows, -1), column_pivots(columns, -1);
+        auto next = removed.begin();
+        for (int r = 0; r < rows; ++r) {
+            if (next != removed.end() && *next == r) {
+                ++next;
+                continue;
+            }
+            if (simplex_.getRowStatus(r) == ClpSimplex::basic) row_pivots[kept.size()] = 0;
+            kept.push_back(r);
+        }
+        for (int c = 0; c < columns; ++c) {
+            if (simplex_.getColumnStatus(c) == ClpSimplex::basic) column_pivots[c] = 0;
+        }
+        constexpr int kDone = 0, kSingular = -1;
+        CoinFactorization factorization;
+        const int status = factorization.factorize(matrix, row_pivots.data(), column_pivots.data());
+        if (status == kDone || status == kSingular) keep_pivots(kept, row_pivots, column_pivots);
+    }
+
+    /// Basic without a pivot becomes nonbasic, and a row without a pivot gets its slack.
+    void keep_pivots(const std::vector<int>& kept, const std::vector<int>& row_pivots,
+                     const std::vector<int>& column_pivots) {
+        std::vector<std::uint8_t> is_pivot(row_pivots.size(), 0);
+        for (int pivot : row_pivots) {
+            if (pivot >= 0) is_pivot[pivot] = 1;
+        }
+        for (int c = 0; c < simplex_.numberColumns(); ++c) {
+            if (column_pivots[c] >= 0) {
+                is_pivot[column_pivots[c]] = 1;
+            } else if (simplex_.getColumnStatus(c) == ClpSimplex::basic) {
+                const double middle = (simplex_.getColLower()[c] + simplex_.getColUpper()[c]) / 2;
+                const bool is_up = simplex_.primalColumnSolution()[c] > middle;
+                simplex_.setColumnStatus(
+                    c, is_up ? ClpSimplex::atUpperBound : ClpSimplex::atLowerBound);
+            }
+        }
+        for (std::size_t k = 0; k < kept.size(); ++k) {
+            const bool was_basic = simplex_.getRowStatus(kept[k]) == ClpSimplex::basic;
+            if (was_basic && row_pivots[k] < 0) {
+                simplex_.setRowStatus(kept[k], ClpSimplex::atUpperBound);
+            }
+            if (is_pivot[k] == 0) simplex_.setRowStatus(kept[k], ClpSimplex::basic);
+        }
     }
 
     /// Clp crashes on a problem without rows when it is asked to keep its factorization.
