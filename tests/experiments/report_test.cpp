@@ -304,6 +304,20 @@ TEST(Report, FailuresAreListedWithWhatTheySaid) {
     EXPECT_NE(text.find("| glpk | GLPK 5.0 |"), std::string::npos);
 }
 
+TEST(Report, InstructionsStandBesideSecondsWhereTheyAreCounted) {
+    const PythonIs none(kNoPython);
+    const labeling::ScratchFolder scratch;
+    CampaignBuilder b;
+    b.optimal(b.problem("p"), b.solver("s"), 100, 1);
+    write_report(b.runs, scratch.path() / "report");
+    const fs::path file = scratch.path() / "report" / "report.md";
+    EXPECT_EQ(read_text_file(file).find("instructions"), std::string::npos);
+    b.runs.records[0]->measures.instructions = 12'300'000'000;
+    write_report(b.runs, scratch.path() / "report");
+    EXPECT_NE(read_text_file(file).find("instructions"), std::string::npos);
+    EXPECT_NE(read_text_file(file).find("| 12.300 |"), std::string::npos);
+}
+
 TEST(Report, AnEmptyCampaignHasAReport) {
     const labeling::ScratchFolder scratch;
     CampaignBuilder b;
@@ -375,6 +389,9 @@ TEST(Report, Numbers) {
     EXPECT_EQ(percent_text(1), "100%");
     EXPECT_EQ(percent_text(1e-9), "<0.001%");
     EXPECT_EQ(decimal_text(-0.0001, 2), "0.00");
+    EXPECT_EQ(number_text(323.5), "323.5");
+    EXPECT_EQ(number_text(0.0123), "0.012");
+    EXPECT_EQ(number_text(0), "0");
     EXPECT_EQ(count_text(1234567), "1,234,567");
     EXPECT_EQ(count_text(-999), "-999");
     EXPECT_EQ(ratio_interval({2, 1.5, 3, true}), "2.00 [1.50, 3.00]");

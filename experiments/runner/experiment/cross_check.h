@@ -31,7 +31,7 @@ struct CrossCheck {
 
 /// Sets every claim against every checked value. Problems with the same content count as one.
 /// Studies are left out: each of their solvers adapts another sequence of problems. Bounds of runs
-/// that are wrong are not used, nor those of runs that failed; their checked values are.
+/// that are wrong or crashed are not used; their checked values are.
 CrossCheck cross_check(const CampaignRuns& campaign);
 
 /// What a run claims that no solution exceeds: its bound, or its value when it says optimal and no

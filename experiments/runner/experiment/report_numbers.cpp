@@ -60,6 +60,12 @@ std::string ratio_text(double ratio) {
     return decimal_text(ratio, std::clamp(digits_for(ratio), 0, 3));
 }
 
+std::string number_text(double number) {
+    if (number == 0) return "0";
+    if (!std::isfinite(number)) return decimal_text(number, 0);
+    return decimal_text(number, std::clamp(digits_for(number) + 1, 0, 3));
+}
+
 std::string count_text(double number) {
     if (std::isnan(number)) return kDash;
     std::string digits = decimal_text(std::abs(number), 0);

@@ -115,6 +115,12 @@ void add_gurobi(const ReportInput& input, Document& document) {
     add_section(document, std::move(section));
 }
 
+std::string problems_text(std::size_t problems, std::size_t studies) {
+    const std::string of_studies = counted(studies, "remeshing study", "remeshing studies");
+    if (problems == 0) return of_studies;
+    return counted(problems, "problem", "problems") + (studies > 0 ? " and " + of_studies : "");
+}
+
 /// Runs that failed, by solver and kind, with what was said.
 void add_failures(const ReportInput& input, Document& document) {
     static const std::vector<std::pair<Outcome, const char*>> kFailures{
@@ -263,12 +269,11 @@ void add_overview(const ReportInput& input, Document& document) {
     }
     for (const auto& record : input.campaign.records) made += record.has_value();
     BulletList list;
-    list.items.push_back(
-        counted(plan.problems.size() - studies, "problem", "problems") +
-        (studies > 0 ? " and " + counted(studies, "remeshing study", "remeshing studies") : "") +
-        " in " + counted(groups.size(), "group", "groups") + ", " +
-        counted(plan.solvers.size(), "solver", "solvers") + ", " + counted(made, "run", "runs") +
-        " of " + std::to_string(plan.jobs.size()) + " made.");
+    list.items.push_back(problems_text(plan.problems.size() - studies, studies) + " in " +
+                         counted(groups.size(), "group", "groups") + ", " +
+                         counted(plan.solvers.size(), "solver", "solvers") + ", " +
+                         counted(made, "run", "runs") + " of " + std::to_string(plan.jobs.size()) +
+                         " made.");
     list.items.push_back(
         "Every value is of labels that the runner evaluated itself. No claim of "
         "any run contradicts a checked value of another.");

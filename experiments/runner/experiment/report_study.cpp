@@ -8,10 +8,9 @@ namespace experiment {
 namespace {
 
 std::string plain_interval(const Interval& interval) {
-    const auto text = [](double number) { return decimal_text(number, 3); };
-    std::string result = text(interval.estimate);
+    std::string result = number_text(interval.estimate);
     if (interval.is_known) {
-        result += " [" + text(interval.low) + ", " + text(interval.high) + "]";
+        result += " [" + number_text(interval.low) + ", " + number_text(interval.high) + "]";
     }
     return result;
 }
@@ -107,7 +106,7 @@ Table each_mesh(const ReportInput& input) {
         row.emplace_back(decimal_text(entry.value, 3), entry.value);
         row.emplace_back(percent_text(entry.gap), entry.gap);
         for (const double number : entry.measures) {
-            row.emplace_back(decimal_text(number, 3), number);
+            row.emplace_back(number_text(number), number);
         }
         table.rows.push_back(std::move(row));
     }
