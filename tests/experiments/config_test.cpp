@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "experiment/plan.h"
 #include "labeling/errors.h"
 
@@ -93,6 +95,19 @@ INSTANTIATE_TEST_SUITE_P(
         for (char& c : name) c = c == ' ' ? '_' : c;
         return name;
     });
+
+TEST(Corpora, AllOfThemCanBeRead) {
+    int count = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(SCALEFCN_SOURCE_DIR "/experiments/corpora")) {
+        SCOPED_TRACE(entry.path().string());
+        const CampaignConfig config = read_config(entry.path());
+        EXPECT_EQ(config.name, entry.path().stem().string());
+        EXPECT_FALSE(config.description.empty());
+        ++count;
+    }
+    EXPECT_GE(count, 7);
+}
 
 std::vector<PlannedProblem> two_problems() {
     std::vector<PlannedProblem> problems(2);
