@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "labeling/cut_lane.h"
 #include "labeling/lp_engine.h"
 #include "labeling/problem.h"
 #include "labeling/run_control.h"
@@ -17,19 +18,13 @@ namespace labeling {
 struct BranchAndCutOptions {
     LpFactory lp;
     std::uint64_t seed = 1;
-    int threads = 1;  ///< of the local search
+    int threads = 1;
     Techniques techniques;
     /// Called with every better value (of the whole problem given) and bound.
     std::function<void(std::optional<Value>, std::optional<Value>)> report;
     /// Solves what is left when fixing by bounds has shrunk or split the problem at the root; gets
     /// the problem and a start that may be absent. Empty: the tree does it all.
     std::function<TreeResult(const LabelingProblem&, const std::optional<Solution>&)> solve_rest;
-};
-
-struct BranchAndCutStatistics {
-    std::int64_t nodes = 0, lp_iterations = 0, clique_cuts = 0, triple_cuts = 0, rank_two_cuts = 0,
-                 gomory_cuts = 0, rule_rows = 0;
-    std::int64_t fixed_labels = 0;
 };
 
 /// LP-based branch and cut for one connected problem. `start`, if given, is feasible. Looks for

@@ -117,6 +117,8 @@ private:
         result.statistics["lp-iterations"] = static_cast<double>(statistics_.lp_iterations);
         result.statistics["clique-cuts"] = static_cast<double>(statistics_.clique_cuts);
         result.statistics["triple-cuts"] = static_cast<double>(statistics_.triple_cuts);
+        result.statistics["tree-work"] = static_cast<double>(statistics_.tree_work);
+        result.statistics["tree-path"] = static_cast<double>(statistics_.tree_path);
         result.statistics["rank-two-cuts"] = static_cast<double>(statistics_.rank_two_cuts);
         result.statistics["gomory-cuts"] = static_cast<double>(statistics_.gomory_cuts);
         return result;

@@ -21,6 +21,15 @@ NodeState::NodeState(const LabelingProblem& problem, Propagator& propagator, Rel
     synchronize();
 }
 
+NodeState::NodeState(const NodeState& other, Propagator& propagator, Relaxation& relaxation)
+    : problem_(other.problem_),
+      propagator_(propagator),
+      relaxation_(relaxation),
+      bonus_begin_(other.bonus_begin_),
+      bonuses_at_(other.bonuses_at_),
+      fixed_(other.fixed_),
+      fixed_before_(other.fixed_before_) {}
+
 void NodeState::synchronize() {
     const auto trail = propagator_.trail();
     while (fixed_before_.size() < trail.size()) {

@@ -13,6 +13,8 @@ namespace labeling {
 class NodeState {
 public:
     NodeState(const LabelingProblem& problem, Propagator& propagator, Relaxation& relaxation);
+    /// The same decisions on copies of its propagator and relaxation.
+    NodeState(const NodeState& other, Propagator& propagator, Relaxation& relaxation);
 
     /// Assigns, propagates, passes the consequences on; false on a contradiction (then undo).
     bool assign(Label i, bool value);

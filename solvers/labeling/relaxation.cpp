@@ -16,6 +16,7 @@ namespace labeling {
 namespace {
 
 constexpr Value kHugeBound = Value{1} << 60;
+constexpr int kIdBits = 27;
 
 Value floor_shift(Int128 number, int shift) { return static_cast<Value>(number >> shift); }
 
@@ -41,10 +42,32 @@ Relaxation::Relaxation(const LabelingProblem& problem, const LpFactory& factory)
     for (Value c : objective_) largest = std::max(largest, std::abs(c));
     while (static_cast<double>(largest) / scale_ > 2048) scale_ *= 2;
     while (static_cast<double>(largest) / scale_ < 512) scale_ /= 2;
-    std::vector<double> objective, lower(objective_.size(), 0.0), upper(objective_.size(), 1.0);
-    for (Value c : objective_) objective.push_back(static_cast<double>(c) / scale_);
-    engine_->reset(objective, lower, upper);
+    reset_engine();
     bound_ = kHugeBound;
+}
+
+Relaxation::Relaxation(const Relaxation& other, const LpFactory& factory, std::uint32_t range)
+    : engine_(factory()),
+      objective_(other.objective_),
+      lower_(other.lower_),
+      upper_(other.upper_),
+      rows_(other.rows_),
+      aside_(other.aside_),
+      row_hashes_(other.row_hashes_),
+      bound_(kHugeBound),
+      scale_(other.scale_),
+      next_id_(std::max(other.next_id_, range << kIdBits)),
+      drops_tight_rows_(other.drops_tight_rows_) {
+    reset_engine();
+    for (const Row& row : rows_) pass_to_engine(row);
+}
+
+void Relaxation::reset_engine() {
+    std::vector<double> objective;
+    for (Value c : objective_) objective.push_back(static_cast<double>(c) / scale_);
+    const std::vector<double> lower(lower_.begin(), lower_.end());
+    const std::vector<double> upper(upper_.begin(), upper_.end());
+    engine_->reset(objective, lower, upper);
 }
 
 bool Relaxation::add(Cut cut) {
@@ -59,8 +82,6 @@ bool Relaxation::add(Cut cut) {
 }
 
 void Relaxation::insert(Row row) {
-    std::vector<LpEngine::Entry> entries;
-    entries.reserve(row.cut.entries.size());
     std::int32_t largest = 1;
     for (const Cut::Entry& e : row.cut.entries) {
         largest = std::max(largest, std::abs(e.coefficient));
@@ -69,13 +90,19 @@ void Relaxation::insert(Row row) {
     row.largest = std::max(static_cast<double>(largest),
                            std::abs(static_cast<double>(row.cut.right_hand_side)));
     while (row.scale * 8 < largest) row.scale *= 2;
+    row.id = next_id_++;
+    row.idle_age = 0;
+    pass_to_engine(row);
+    rows_.push_back(std::move(row));
+}
+
+void Relaxation::pass_to_engine(const Row& row) {
+    std::vector<LpEngine::Entry> entries;
+    entries.reserve(row.cut.entries.size());
     for (const Cut::Entry& e : row.cut.entries) {
         entries.push_back({e.column, e.coefficient / row.scale});
     }
     engine_->add_row(entries, static_cast<double>(row.cut.right_hand_side) / row.scale);
-    row.id = next_id_++;
-    row.idle_age = 0;
-    rows_.push_back(std::move(row));
 }
 
 void Relaxation::fix(std::int32_t column, bool value) {

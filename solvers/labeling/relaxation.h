@@ -40,6 +40,9 @@ std::uint64_t hash_of(const Cut& cut);
 class Relaxation {
 public:
     Relaxation(const LabelingProblem& problem, const LpFactory& factory);
+    /// A copy with a solver of its own. Rows that are added later get ids from a range of their
+    /// own, so that a basis saved by one copy can be restored by another. Ranges: 1 to 30.
+    Relaxation(const Relaxation& other, const LpFactory& factory, std::uint32_t range);
 
     std::int32_t column_count() const { return static_cast<std::int32_t>(objective_.size()); }
     std::int32_t row_count() const { return static_cast<std::int32_t>(rows_.size()); }
@@ -95,6 +98,8 @@ private:
         double largest = 1;  ///< largest absolute number in the row
     };
 
+    void reset_engine();
+    void pass_to_engine(const Row& row);
     void insert(Row row);
     void compute_bound();
     bool prove_infeasible();

@@ -7,12 +7,26 @@
 #include "labeling/errors.h"
 
 namespace labeling {
+namespace {
+
+const SolveOptions& no_options() {
+    static const SolveOptions options;
+    return options;
+}
+
+}  // namespace
 
 RunControl::RunControl(const SolveOptions& options, std::optional<std::int64_t> default_work_limit)
     : options_(options) {
     const auto limit = options.work_limit ? options.work_limit : default_work_limit;
     limit_ = limit.value_or(std::numeric_limits<std::int64_t>::max());
     cap_ = limit_;
+    start_ = now();
+    check();
+}
+
+RunControl::RunControl(std::int64_t ticks, std::function<bool()> is_stopped)
+    : options_(no_options()), is_stopped_(std::move(is_stopped)), limit_(ticks), cap_(ticks) {
     start_ = now();
     check();
 }
@@ -33,7 +47,7 @@ double RunControl::seconds_left() const {
 void RunControl::check() {
     next_check_ = std::min(limit_, work_ + kTicksPerClockRead);
     if (next_check_ <= work_) next_check_ = std::numeric_limits<std::int64_t>::max();
-    if (options_.stop.stop_requested()) {
+    if (is_stopped_ ? is_stopped_() : options_.stop.stop_requested()) {
         end(StopReason::Interrupted);
     } else if (options_.time_limit && seconds() >= options_.time_limit->count()) {
         end(StopReason::TimeLimit);

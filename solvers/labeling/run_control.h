@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -21,6 +22,9 @@ public:
     /// `default_work_limit` applies where the options give none.
     explicit RunControl(const SolveOptions& options,
                         std::optional<std::int64_t> default_work_limit = std::nullopt);
+    /// For one of several lanes of a run: counts its own work, up to `ticks`, and asks `is_stopped`
+    /// instead of clock and stop token.
+    RunControl(std::int64_t ticks, std::function<bool()> is_stopped);
 
     /// Adds work; true when the caller has to stop (a part's cap or the end of the whole run).
     bool spend(std::int64_t ticks) {
@@ -74,6 +78,7 @@ private:
     double now() const;
 
     const SolveOptions& options_;
+    std::function<bool()> is_stopped_;
     double start_ = 0;
     std::int64_t work_ = 0;
     std::int64_t limit_;

@@ -26,8 +26,6 @@ public:
     void run(std::size_t count, const Task& task);
 
 private:
-    void run_in_threads(std::size_t count, std::int64_t share, const Task& task);
-
     RunControl& control_;
     int threads_;
     std::vector<std::unique_ptr<Annealer>> lanes_;

@@ -31,8 +31,8 @@ constexpr std::array kSwitches{
 Techniques techniques_of(const SolveOptions& options, std::string_view solver) {
     require_known_extras(
         options, solver,
-        {"tree-size", "heuristics", "reductions", "treewidth", "clique-cuts", "triple-cuts",
-         "rank-two-cuts", "gomory-cuts", "fixing", "restarts", "strong-branching"});
+        {"tree-size", "tree-lanes", "heuristics", "reductions", "treewidth", "clique-cuts",
+         "triple-cuts", "rank-two-cuts", "gomory-cuts", "fixing", "restarts", "strong-branching"});
     Techniques techniques;
     for (const Switch& s : kSwitches) {
         const auto it = options.extra.find(s.key);
@@ -45,6 +45,9 @@ Techniques techniques_of(const SolveOptions& options, std::string_view solver) {
     constexpr std::int64_t kMost = 1'000'000;
     techniques.tree_size =
         static_cast<Label>(extra_integer(options, "tree-size", techniques.tree_size, 0, kMost));
+    constexpr std::int64_t kMostLanes = 16;
+    techniques.tree_lanes = static_cast<int>(
+        extra_integer(options, "tree-lanes", techniques.tree_lanes, 1, kMostLanes));
     return techniques;
 }
 

@@ -13,6 +13,8 @@ struct Techniques {
     /// Parts of up to this many labels are left to the depth-first tree; parts of up to 2.5 times
     /// as many get a small allowance of it before branch-and-cut. 0: branch-and-cut for all.
     Label tree_size = 24;
+    /// Dives of branch-and-cut's tree side by side, 1 to 16: as many threads can work on it.
+    int tree_lanes = 2;
     /// Greedy and local search before and inside of branch-and-cut; a warm start needs them.
     bool heuristics = true;
     bool reductions = true;        ///< reductions.h, before anything else

@@ -131,6 +131,7 @@ public:
 
     void set_basis(const Basis& basis) override {
         flush_pending();
+        if (simplex_.statusArray() == nullptr) simplex_.createStatus();
         const int columns = simplex_.numberColumns(), rows = simplex_.numberRows();
         for (int c = 0; c < columns; ++c) simplex_.setColumnStatus(c, translate(basis[c]));
         for (int r = 0; r < rows; ++r) {

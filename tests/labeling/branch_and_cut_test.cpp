@@ -118,6 +118,9 @@ const Case kCases[] = {
     {"without_fixing", {{"fixing", "off"}}},
     {"without_restarts", {{"restarts", "off"}}},
     {"without_strong_branching", {{"strong-branching", "off"}}},
+    {"one_lane", {{"tree-lanes", "1"}}},
+    {"five_lanes_without_cuts",
+     {{"tree-lanes", "5"}, {"clique-cuts", "off"}, {"triple-cuts", "off"}, {"gomory-cuts", "off"}}},
 };
 
 INSTANTIATE_TEST_SUITE_P(EveryTechnique, BranchAndCut, testing::ValuesIn(kCases),
