@@ -168,6 +168,18 @@ TEST(Comparison, AMinorityOfProofsIsNone) {
     EXPECT_DOUBLE_EQ(cell.gap_to_best, 0.2);
 }
 
+TEST(Comparison, SpreadIsOfProvenRunsOfTheSameProblem) {
+    CampaignBuilder b;
+    const auto s = b.solver("s");
+    const auto p = b.problem("p"), q = b.problem("q"), r = b.problem("r");
+    b.optimal(p, s, 100, 1, 1);
+    b.optimal(p, s, 100, 4, 2);
+    b.optimal(q, s, 100, 9, 1);  // one run has none
+    b.optimal(r, s, 100, 1, 1);
+    b.feasible(r, s, 90, 110, 10, 2);  // nor has one without a proof
+    EXPECT_DOUBLE_EQ(compare_solvers(b.runs).solvers[s].spread, 4);
+}
+
 TEST(Comparison, RunsNotMadeAreLeftOut) {
     CampaignBuilder b;
     const auto s = b.solver("s");

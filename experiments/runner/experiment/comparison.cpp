@@ -33,6 +33,17 @@ std::optional<std::int64_t> median_value(const std::vector<RunReading>& readings
     return values[(values.size() - 1) / 2];
 }
 
+/// Slowest over fastest of several runs that all found a proof: what names and seeds alone change.
+double spread_of(const std::vector<RunReading>& readings, double floor_seconds) {
+    const bool all_proven = std::all_of(readings.begin(), readings.end(),
+                                        [](const RunReading& r) { return r.is_proven; });
+    if (readings.size() < 2 || !all_proven) return kUnknown;
+    const auto [fastest, slowest] = std::minmax_element(
+        readings.begin(), readings.end(),
+        [](const RunReading& a, const RunReading& b) { return a.seconds < b.seconds; });
+    return std::max(slowest->seconds, floor_seconds) / std::max(fastest->seconds, floor_seconds);
+}
+
 class Comparer {
 public:
     explicit Comparer(const CampaignRuns& campaign) : campaign_(campaign), plan_(campaign.plan) {}
@@ -96,7 +107,7 @@ private:
             if (m.instructions) instructions.push_back(static_cast<double>(*m.instructions));
         }
         Cell cell;
-        if (!taken.empty()) cell = summarise(taken, result_.horizon);
+        if (!taken.empty()) cell = summarise(taken, result_.horizon, plan_.report.floor_seconds);
         cell.standing = standing;
         cell.is_planned = true;
         cell.peak_mib = median(memory);
@@ -160,6 +171,11 @@ private:
             if (number.value > 0) instructions.push_back(number.value);
         }
         summary.instructions = geometric_mean(instructions);
+        std::vector<double> spreads;
+        for (const Grouped& number : measured(campaign_, cells, &Cell::spread)) {
+            spreads.push_back(number.value);
+        }
+        summary.spread = geometric_mean(spreads);
     }
 
     /// On each problem the fastest proof of all; it makes the cells of a solver of its own.
@@ -204,7 +220,7 @@ std::vector<Grouped> measured(const CampaignRuns& campaign, const std::vector<Ce
     return numbers;
 }
 
-Cell summarise(const std::vector<RunReading>& readings, double horizon) {
+Cell summarise(const std::vector<RunReading>& readings, double horizon, double floor_seconds) {
     Cell cell;
     cell.standing = Standing::Taken;
     cell.made = readings.size();
@@ -215,6 +231,7 @@ Cell summarise(const std::vector<RunReading>& readings, double horizon) {
     cell.is_proven = 2 * static_cast<std::size_t>(proven) > readings.size();
     cell.seconds = median_over(readings, [](const RunReading& r) { return r.seconds; });
     cell.counted = median_over(readings, [](const RunReading& r) { return r.counted(); });
+    cell.spread = spread_of(readings, floor_seconds);
     cell.par10 = median_over(
         readings, [](const RunReading& r) { return r.is_proven ? r.seconds : kPenalty * r.limit; });
     cell.value = median_value(readings);

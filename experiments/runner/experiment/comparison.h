@@ -25,11 +25,12 @@ struct Cell {
     Standing standing = Standing::NotRun;
     bool is_planned = false;
     std::size_t made = 0;
-    bool is_proven = false;                    ///< in more than half of the runs
-    bool was_stopped = false;                  ///< by a limit of time or work, in any of them
-    double seconds = 0;                        ///< of all runs, as measured
-    double counted = 0;                        ///< runs without a proof at the limit
-    double par10 = 0;                          ///< the same at ten times the limit
+    bool is_proven = false;    ///< in more than half of the runs
+    bool was_stopped = false;  ///< by a limit of time or work, in any of them
+    double seconds = 0;        ///< of all runs, as measured
+    double counted = 0;        ///< runs without a proof at the limit
+    double par10 = 0;          ///< the same at ten times the limit
+    double spread = 1;  ///< slowest over fastest run, floored; NaN of one run or without a proof
     std::optional<std::int64_t> value;         ///< the lower one of two in the middle
     double gap_to_best = 1, gap_to_bound = 1;  ///< NaN when nothing is known to compare with
     double primal_integral = 0;                ///< seconds; NaN when no solution is known
@@ -49,6 +50,7 @@ struct SolverSummary {
     Interval gap_to_best, gap_to_bound, primal_integral;  ///< means
     std::array<std::size_t, kTargets.size()> reached{};
     double instructions = 0;  ///< geometric mean; NaN where none were counted
+    double spread = 0;        ///< geometric mean; NaN where there is none
     double peak_mib = 0;      ///< the largest
 };
 
@@ -78,7 +80,7 @@ PairComparison compare_pair(const CampaignRuns& campaign, const Comparison& comp
                             std::size_t a, std::size_t b);
 
 /// Median of each measure over readings of the same solver on the same problem.
-Cell summarise(const std::vector<RunReading>& readings, double horizon);
+Cell summarise(const std::vector<RunReading>& readings, double horizon, double floor_seconds);
 
 /// Index of the solver that the others are compared with.
 std::size_t baseline_of(const Plan& plan);

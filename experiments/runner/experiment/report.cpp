@@ -71,7 +71,7 @@ Document alarm(const CampaignRuns& campaign, const std::vector<Contradiction>& c
          {std::move(list),
           Paragraph{"A value is a fact: the runner evaluated the labels itself. A bound, an "
                     "optimality and an infeasibility are what a solver says. To look at a run: "
-                    "scalefcn-experiment show RUN."}}});
+                    "scalefcn-experiment show DIR RUN."}}});
     return document;
 }
 

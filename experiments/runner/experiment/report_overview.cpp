@@ -274,9 +274,11 @@ void add_overview(const ReportInput& input, Document& document) {
                          counted(plan.solvers.size(), "solver", "solvers") + ", " +
                          counted(made, "run", "runs") + " of " + std::to_string(plan.jobs.size()) +
                          " made.");
-    list.items.push_back(
-        "Every value is of labels that the runner evaluated itself. No claim of "
-        "any run contradicts a checked value of another.");
+    if (studies < plan.problems.size()) {
+        list.items.push_back(
+            "Every value is of labels that the runner evaluated itself. No claim of any run "
+            "contradicts a checked value of another.");
+    }
     const std::size_t baseline = baseline_of(plan);
     const SolverSummary& best = input.comparison.virtual_best;
     if (best.taken > 0) {

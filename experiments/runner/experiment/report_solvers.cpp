@@ -55,6 +55,7 @@ public:
         if (comparison_.has_instructions) {
             table.columns.push_back("instructions, geometric mean [10^9]");
         }
+        if (has_spread()) table.columns.push_back("slowest over fastest run");
         for (const std::size_t s : solvers) {
             table.rows.push_back(exact_row(plan_.solvers[s].name, comparison_.solvers[s]));
         }
@@ -71,6 +72,7 @@ public:
         if (has_virtual_best && solvers.size() > 1) {
             table.rows.push_back(exact_row("virtual best", comparison_.virtual_best));
             table.rows.back()[5] = "";
+            if (has_spread()) table.rows.back().back() = "";
         }
         return table;
     }
@@ -151,7 +153,13 @@ private:
         if (comparison_.has_instructions) {
             row.emplace_back(instruction_text(sum.instructions), sum.instructions);
         }
+        if (has_spread()) row.emplace_back(ratio_text(sum.spread), sum.spread);
         return row;
+    }
+
+    bool has_spread() const {
+        return std::any_of(comparison_.solvers.begin(), comparison_.solvers.end(),
+                           [](const SolverSummary& sum) { return !std::isnan(sum.spread); });
     }
 
     const ReportInput& input_;
@@ -231,6 +239,11 @@ void add_exact_solvers(const ReportInput& input, Document& document) {
             "Solvers that claim bounds. Means are over the problems that each one took; "
             "where these differ, rows cannot be compared, see the pairs. The best "
             "number of a column is bold where all took as many problems.";
+        if (!std::isnan(input.comparison.solvers[solvers[0]].spread)) {
+            table.caption +=
+                " The last column is what seeds and renamings alone change: the "
+                "geometric mean of slowest over fastest run of a problem.";
+        }
         section.blocks.emplace_back(std::move(table));
     }
     add_section(document, std::move(section));

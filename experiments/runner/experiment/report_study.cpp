@@ -120,8 +120,9 @@ void add_study(const ReportInput& input, Document& document) {
     if (input.study.entries.empty()) return;
     Section section{"Does the objective matter?", "study", {}};
     section.blocks.emplace_back(Paragraph{
-        "Each solver's network was remeshed, and the meshes are set beside the objective. The "
-        "baseline is " +
+        "Each solver's network was remeshed, and the meshes are set beside the objective, of which "
+        "the adaptation's own word is taken: each solver leads it to other problems. The baseline "
+        "is " +
         input.campaign.plan.solvers[input.study.baseline].name + "."});
     section.blocks.emplace_back(means(input, false));
     Table differences = means(input, true);
