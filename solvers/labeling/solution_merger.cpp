@@ -49,11 +49,7 @@ void SolutionMerger::merge(Solution& best, std::span<const Labels> others) {
     merge_freed(best, std::move(free));
 }
 
-void SolutionMerger::merge_window(Solution& best, std::span<const Label> labels) {
-    ++statistics.merges;
-    merge_freed(best, {labels.begin(), labels.end()});
-}
-
+/// `free` must ascend.
 void SolutionMerger::merge_freed(Solution& best, std::vector<Label> free) {
     for (Label i : free) release(i);
     drop_blocked(best, free);

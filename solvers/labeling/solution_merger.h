@@ -33,8 +33,6 @@ public:
 
     /// Never makes `best`, which must be feasible, worse. The others need not be feasible.
     void merge(Solution& best, std::span<const Labels> others);
-    /// The same over the labels given, whatever other labelings say: a window.
-    void merge_window(Solution& best, std::span<const Label> labels);
 
     MergeStatistics statistics;
 
