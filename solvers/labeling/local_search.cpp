@@ -25,7 +25,7 @@
 namespace labeling {
 namespace {
 
-// Chosen by measurement on the problems in data/instances and generated ones at 1 and 10 s.
+// Chosen by measurement on the development problems and generated ones at 1 and 10 s.
 constexpr double kColdest = 0.2;
 constexpr double kColdLow = 0.1;
 constexpr double kColdHigh = 0.25;
