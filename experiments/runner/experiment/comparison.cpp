@@ -88,14 +88,12 @@ private:
         if (claimed_bound(*record, solver)) summary.is_exact = true;
         const RunReading reading = reader.read(j);
         if (reading.standing != Standing::Taken) return;
-        if (!record->stop_reason.empty()) ++summary.stop_reasons[record->stop_reason];
         if (solver.limits.seconds && reading.seconds > reading.limit) ++summary.runs_over_limit;
-        summary.peak_mib = std::max(summary.peak_mib, record->measures.peak_mib);
     }
 
     Cell cell_of(const std::vector<std::size_t>& jobs, const RunReader& reader) {
         std::vector<RunReading> taken;
-        std::vector<double> instructions, memory;
+        std::vector<double> instructions;
         Standing standing = Standing::NotRun;
         for (const std::size_t j : jobs) {
             const RunReading reading = reader.read(j);
@@ -103,14 +101,12 @@ private:
             if (reading.standing != Standing::Taken) continue;
             taken.push_back(reading);
             const Measures& m = campaign_.records[j]->measures;
-            memory.push_back(m.peak_mib);
             if (m.instructions) instructions.push_back(static_cast<double>(*m.instructions));
         }
         Cell cell;
         if (!taken.empty()) cell = summarise(taken, result_.horizon, plan_.report.floor_seconds);
         cell.standing = standing;
         cell.is_planned = true;
-        cell.peak_mib = median(memory);
         cell.instructions = median(instructions);
         if (!instructions.empty()) result_.has_instructions = true;
         return cell;

@@ -35,7 +35,7 @@ struct Cell {
     double gap_to_best = 1, gap_to_bound = 1;  ///< NaN when nothing is known to compare with
     double primal_integral = 0;                ///< seconds; NaN when no solution is known
     std::array<double, kTargets.size()> target_seconds{};  ///< infinite: never; NaN as above
-    double instructions = 0, peak_mib = 0;                 ///< instructions NaN where not counted
+    double instructions = 0;                               ///< NaN where they are not counted
 };
 
 struct SolverSummary {
@@ -43,7 +43,6 @@ struct SolverSummary {
     std::size_t taken = 0, not_applicable = 0, missing = 0, not_run = 0;  ///< problems
     std::size_t runs_planned = 0, runs_made = 0, runs_over_limit = 0;
     std::map<Outcome, std::size_t> outcomes;                           ///< of runs
-    std::map<std::string, std::size_t> stop_reasons;                   ///< of runs taken
     std::size_t proven = 0, with_value = 0, at_best = 0, fastest = 0;  ///< problems
     Interval time;   ///< shifted geometric mean, unproven at the limit
     Interval par10;  ///< mean
@@ -51,7 +50,6 @@ struct SolverSummary {
     std::array<std::size_t, kTargets.size()> reached{};
     double instructions = 0;  ///< geometric mean; NaN where none were counted
     double spread = 0;        ///< geometric mean; NaN where there is none
-    double peak_mib = 0;      ///< the largest
 };
 
 /// Solver `a` against `b` on the problems that both took.

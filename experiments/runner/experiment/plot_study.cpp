@@ -55,7 +55,7 @@ void add_study_plots(const CampaignRuns& campaign, const StudyComparison& study,
                {"scale", "symlog"},
                {"threshold", 0.01}}},
              {"y",
-              {{"label", is_share ? "changed [%]" : "difference to " + baseline},
+              {{"label", is_share ? measure.title : measure.title + ", less " + baseline + "'s"},
                {"scale", "linear"}}}});
         data.captions.push_back(
             {"study",

@@ -159,8 +159,8 @@ std::string starved_runs(const CampaignRuns& campaign) {
     if (starved == 0) return "";
     return std::to_string(starved) + " of the " + counted(long_runs, "run", "runs") +
            " that lasted a second or more had less than 80% of one processor: they waited, for "
-           "other work on the machine or for the disk. Limits of time are of the clock on the "
-           "wall, so these runs were given less than the others.";
+           "other work on the machine or for the disk. Where time is limited, it is the clock on "
+           "the wall that counts, so these runs were given less than the others.";
 }
 
 void add_wrong(const ReportInput& input, Document& document) {
@@ -180,22 +180,31 @@ void add_wrong(const ReportInput& input, Document& document) {
                   std::move(list)}});
 }
 
+struct OutcomeCounts {
+    std::size_t planned = 0, made = 0, by_time = 0, by_work = 0;
+    std::map<Outcome, std::size_t> outcomes;
+    double peak_mib = 0;
+};
+
 Table outcome_table(const ReportInput& input) {
     static const std::vector<Outcome> kKinds{
         Outcome::Optimal, Outcome::Feasible,      Outcome::Infeasible, Outcome::NoSolution,
         Outcome::Timeout, Outcome::OutOfMemory,   Outcome::DiskFull,   Outcome::Crash,
         Outcome::Wrong,   Outcome::NotApplicable, Outcome::Missing};
     const Plan& plan = input.campaign.plan;
-    std::vector<std::map<Outcome, std::size_t>> counts(plan.solvers.size());
-    std::vector<std::size_t> planned(plan.solvers.size()), made(plan.solvers.size());
+    std::vector<OutcomeCounts> counts(plan.solvers.size());
     std::map<Outcome, std::size_t> totals;
     for (std::size_t j = 0; j < plan.jobs.size(); ++j) {
-        const std::size_t s = plan.jobs[j].solver;
-        ++planned[s];
+        OutcomeCounts& count = counts[plan.jobs[j].solver];
+        ++count.planned;
         if (!input.campaign.records[j]) continue;
-        ++made[s];
-        ++counts[s][input.campaign.records[j]->outcome];
-        ++totals[input.campaign.records[j]->outcome];
+        const Record& record = *input.campaign.records[j];
+        ++count.made;
+        ++count.outcomes[record.outcome];
+        ++totals[record.outcome];
+        count.by_time += record.stop_reason == "time-limit";
+        count.by_work += record.stop_reason == "work-limit";
+        count.peak_mib = std::max(count.peak_mib, record.measures.peak_mib);
     }
     Table table;
     table.caption =
@@ -213,20 +222,15 @@ Table outcome_table(const ReportInput& input) {
         };
         std::vector<TableCell> row{
             plan.solvers[s].name, solver_limits(plan.solvers[s]),
-            number(static_cast<std::size_t>(plan.solvers[s].limits.memory_mib)), number(made[s]),
-            number(planned[s])};
+            number(static_cast<std::size_t>(plan.solvers[s].limits.memory_mib)),
+            number(counts[s].made), number(counts[s].planned)};
         for (const Outcome kind : kKinds) {
-            if (totals.contains(kind)) row.push_back(number(counts[s][kind]));
+            if (totals.contains(kind)) row.push_back(number(counts[s].outcomes[kind]));
         }
-        const SolverSummary& summary = input.comparison.solvers[s];
-        const auto stops = [&](const char* reason) {
-            const auto it = summary.stop_reasons.find(reason);
-            return it == summary.stop_reasons.end() ? std::size_t{0} : it->second;
-        };
-        row.push_back(number(stops("time-limit")));
-        row.push_back(number(stops("work-limit")));
-        row.push_back(number(summary.runs_over_limit));
-        row.emplace_back(decimal_text(summary.peak_mib, 0), summary.peak_mib);
+        row.push_back(number(counts[s].by_time));
+        row.push_back(number(counts[s].by_work));
+        row.push_back(number(input.comparison.solvers[s].runs_over_limit));
+        row.emplace_back(decimal_text(counts[s].peak_mib, 0), counts[s].peak_mib);
         table.rows.push_back(std::move(row));
     }
     return table;
