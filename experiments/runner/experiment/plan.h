@@ -14,10 +14,11 @@ namespace experiment {
 
 /// A problem of a campaign: a labeling problem, or a mesh to adapt and remesh.
 struct PlannedProblem {
-    std::string name;   ///< unique within the campaign
-    std::string file;   ///< relative to the campaign's folder
-    std::string group;  ///< what is not independent has the same one: the mesh, or the family
-    std::string hash;   ///< of the content, 16 hexadecimal digits
+    std::string name;  ///< unique within the campaign
+    std::string file;  ///< relative to the campaign's folder
+    std::string
+        group;  ///< what is not independent has the same one: the mesh; generated ones are apart
+    std::string hash;  ///< of the content, 16 hexadecimal digits
     bool is_study = false;
     std::int64_t labels = 0, conflicts = 0, bonuses = 0, rules = 0;
     double units_per_one = 1;
