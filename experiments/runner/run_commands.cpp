@@ -176,6 +176,14 @@ struct ExecuteArguments {
     ExecuteOptions options;
 };
 
+bool has_record(const fs::path& folder, const std::string& key) {
+    try {
+        return read_record(folder, key).has_value();
+    } catch (const labeling::InputError&) {
+        return false;  // a damaged one
+    }
+}
+
 int execute_one(const ExecuteArguments& arguments) {
     const Plan plan = read_plan(arguments.folder);
     const auto job = std::find_if(plan.jobs.begin(), plan.jobs.end(),
@@ -183,7 +191,9 @@ int execute_one(const ExecuteArguments& arguments) {
     if (job == plan.jobs.end()) {
         throw labeling::InputError(arguments.folder.string() + ": no run " + arguments.key);
     }
-    write_record(execute(plan, *job, arguments.folder, arguments.options), arguments.folder);
+    const Record record = execute(plan, *job, arguments.folder, arguments.options);
+    // The first one counts. A second one comes from a process that was given up and made again.
+    if (!has_record(arguments.folder, job->key)) write_record(record, arguments.folder);
     return kDone;
 }
 

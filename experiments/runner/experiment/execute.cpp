@@ -13,6 +13,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -86,6 +87,21 @@ double folder_mib(const fs::path& folder) {
         }
     }
     return bytes / (1024 * 1024);
+}
+
+/// What nothing else calls its own: a process that was given up, on a machine that nobody reaches,
+/// may still be at the same run.
+std::string own_mark() {
+    char host[256] = "";
+    ::gethostname(host, sizeof host - 1);
+    return std::string(".") + host + "." + std::to_string(::getpid());
+}
+
+std::string without(std::string text, const std::string& part) {
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at)) {
+        text.erase(at, part.size());
+    }
+    return text;
 }
 
 /// A folder that is empty at the start and gone at the end.
@@ -190,10 +206,10 @@ Record execute(const Plan& plan, const Job& job, const fs::path& folder,
     if (::getloadavg(load, 1) == 1) record.measures.load = load[0];
 
     const fs::path home = fs::absolute(folder);
-    const RunFolder scratch(home / "scratch" / job.key);
+    const RunFolder scratch(home / "scratch" / (job.key + own_mark()));
     ::setenv("TMPDIR", scratch.path().c_str(), 1);
     const RunCommand command = run_command(plan, job, home, scratch.path());
-    record.command = command.text;
+    record.command = without(command.text, own_mark());
     Observed seen;
     seen.outcome = run_watched(command, solver.limits, scratch.path(), seen, record.measures);
     seen.result_file = command.result_file;
