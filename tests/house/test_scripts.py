@@ -12,7 +12,8 @@ import sys
 import unittest
 
 ROOT = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else pathlib.Path.cwd()
-SCRIPTS = ["run", "test", ".ci/run", "scripts/setup.sh", "scripts/setup_solvers.sh"]
+SCRIPTS = ["run", "test", ".ci/run", "scripts/setup.sh", "scripts/setup_solvers.sh",
+           "scripts/setup_experiments.sh", "experiments/cluster/try_slurm.sh"]
 
 
 def call(*arguments):
