@@ -141,7 +141,8 @@ print(*(s.getsockname()[1] for s in sockets))'
 # accounting: what a container has not got is not needed. A dead job is for Snakemake to make again.
 write_configuration() {
     local host ports
-    host=$(hostname -s)
+    host=$(uname -n)
+    host=${host%%.*}
     read -r -a ports <<<"$(free_ports)"
     cat >"$scratch/slurm.conf" <<TEXT
 ClusterName=trial
@@ -311,7 +312,14 @@ complete() {
 }
 
 records_sum() { cat "$scratch"/slurm/records/*.json | sha256sum; }
-is_alone() { ! pgrep -f "^$programs/scalefcn-experiment execute $scratch/slurm" >/dev/null; }
+
+# No run of the campaign is under way.
+is_alone() {
+    local entry
+    for entry in /proc/[0-9]*; do
+        if has_words "$entry" "scalefcn-experiment execute $scratch/slurm"; then return 1; fi
+    done
+}
 
 # What the killed slurmstepd left behind ends its run: too late, so nothing may come of it.
 let_go() {
