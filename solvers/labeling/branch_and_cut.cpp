@@ -140,9 +140,17 @@ private:
                 added += add_gomory(gap);
             }
             if (added == 0) return NodeOutcome::Branch;
-            const int age = is_large() ? 1 : 2;
+            const int age = idle_age(gap);
             if (round % (age + 1) == age) relaxation_.drop_idle_rows(age);
         }
+    }
+
+    /// Rounds after which an idle row leaves the root's LP: the more rounds are to come, the
+    /// sooner.
+    int idle_age(double gap) const {
+        if (is_large()) return 1;
+        const auto value = static_cast<double>(std::max(lane_.best_value, Value{0}));
+        return gap > kWideGap * value ? 2 : 4;
     }
 
     /// The last rounds of Gomory cuts closed less of the gap than as much work in the tree would.

@@ -280,16 +280,19 @@ std::vector<Cut> RankTwoSeparator::separate(std::span<const double> x,
     build_support(x);
     std::vector<std::pair<double, Cut>> found;
     std::set<std::uint64_t> seen;
-    std::vector<int> uses(graph_.node_count(), 0);
+    std::vector<int> uses(graph_.node_count(), 0), tries(graph_.node_count(), 0);
     const auto is_used = [&](Node v) { return uses[v] >= options.max_uses; };
+    const auto is_tried = [&](Node v) { return tries[v] >= options.max_tries; };
     for (const Start& rule : starts(x, options.max_starts)) {
         for (const bool is_bonuses : {false, true}) {
+            if (std::all_of(rule.begin(), rule.end(), is_tried)) break;
             Start start = rule;
             if (is_bonuses && !with_bonuses(x, start)) continue;
             for (int skip = 0; skip < kTries; ++skip) {
                 if (std::all_of(start.begin(), start.end(), is_used)) break;
                 begin(start);
                 grow(skip);
+                for (Node v : rule) ++tries[v];
                 double total = 0;
                 for (Node v : ones_) total += x[v];
                 if (total < kLeastTotal) continue;

@@ -18,6 +18,7 @@ struct RankTwoCutOptions {
     std::size_t max_cuts = 600;
     std::size_t max_starts = 6000;  ///< three-label rules that a search starts from
     int max_uses = 4;               ///< of a term as member of cuts found, before starts skip it
+    int max_tries = 24;             ///< of a label as part of a start
 };
 
 /// Separates rows "at most two of these terms", which rules of three labels and conflicts imply.
