@@ -54,10 +54,8 @@ public:
     TreeResult run() {
         if (is_consistent_ && control_.is_over()) {
             open_bound_ = sum_of_gains(problem_);
-        } else if (is_consistent_ && fix_impossible()) {
-            for (Cut& cut : initial_clique_cuts(problem_, graph_, control_)) {
-                relaxation_.add(std::move(cut));
-            }
+        } else if (is_consistent_ && begin()) {
+            lane_.add_initial_rows();
             lane_.charge(graph_.work());
             solve_root();
         }
@@ -69,6 +67,11 @@ public:
 
 private:
     enum class NodeOutcome { Pruned, Branch, Stopped };
+
+    bool begin() {
+        lane_.begin();
+        return fix_impossible();
+    }
 
     bool fix_impossible() {
         for (TermGraph::Node v : graph_.impossible()) {

@@ -79,8 +79,8 @@ std::vector<double> column_worth(const LabelingProblem& problem) {
 
 }  // namespace
 
-std::vector<Cut> initial_clique_cuts(const LabelingProblem& problem, const TermGraph& graph,
-                                     RunControl& control) {
+std::vector<Cut> conflict_clique_cuts(const LabelingProblem& problem, const TermGraph& graph,
+                                      RunControl& control) {
     using Node = TermGraph::Node;
     const std::vector<double> worth = column_worth(problem);
     std::int64_t work = 0;
@@ -92,9 +92,19 @@ std::vector<Cut> initial_clique_cuts(const LabelingProblem& problem, const TermG
         make_maximal(graph, worth, clique, work);
         cuts.push_back(clique_cut(graph, clique));
     }
-    // Links: per label, its bonuses are covered by cliques that contain "label off".
+    return cuts;
+}
+
+/// Per label, its bonuses are covered by cliques that contain "label off".
+std::vector<Cut> link_clique_cuts(const LabelingProblem& problem, const TermGraph& graph,
+                                  std::span<const std::int32_t> bonuses, RunControl& control) {
+    using Node = TermGraph::Node;
+    const std::vector<double> worth = column_worth(problem);
+    std::int64_t work = 0;
+    std::vector<Cut> cuts;
+    std::vector<Node> clique;
     std::vector<std::vector<std::int32_t>> bonuses_of(problem.label_count());
-    for (std::int32_t k = 0; k < graph.bonus_count(); ++k) {
+    for (const std::int32_t k : bonuses) {
         bonuses_of[problem.bonuses()[k].first].push_back(k);
         bonuses_of[problem.bonuses()[k].second].push_back(k);
     }
@@ -120,6 +130,17 @@ std::vector<Cut> initial_clique_cuts(const LabelingProblem& problem, const TermG
             cuts.push_back(clique_cut(graph, clique));
             open.swap(left);
         }
+    }
+    return cuts;
+}
+
+std::vector<Cut> initial_clique_cuts(const LabelingProblem& problem, const TermGraph& graph,
+                                     RunControl& control) {
+    std::vector<std::int32_t> bonuses(problem.bonus_count());
+    std::iota(bonuses.begin(), bonuses.end(), 0);
+    std::vector<Cut> cuts = conflict_clique_cuts(problem, graph, control);
+    for (Cut& cut : link_clique_cuts(problem, graph, bonuses, control)) {
+        cuts.push_back(std::move(cut));
     }
     return cuts;
 }

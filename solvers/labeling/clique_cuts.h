@@ -12,9 +12,14 @@ namespace labeling {
 /// Row "at most one of these literals": columns of off-nodes enter with -1.
 Cut clique_cut(const TermGraph& graph, std::span<const TermGraph::Node> clique);
 
-/// Maximal cliques that contain every label conflict, and for every bonus and each of its labels
-/// one with "label off" and the bonus: together they imply all conflicts and links y <= b.
-/// Incomplete when `control` is over.
+/// Maximal cliques that contain every label conflict. Incomplete when `control` is over.
+std::vector<Cut> conflict_clique_cuts(const LabelingProblem& problem, const TermGraph& graph,
+                                      RunControl& control);
+/// For every one of these bonuses and each of its labels a maximal clique with "label off" and the
+/// bonus: together they imply the links y <= b. Incomplete when `control` is over.
+std::vector<Cut> link_clique_cuts(const LabelingProblem& problem, const TermGraph& graph,
+                                  std::span<const std::int32_t> bonuses, RunControl& control);
+/// Both, for all bonuses.
 std::vector<Cut> initial_clique_cuts(const LabelingProblem& problem, const TermGraph& graph,
                                      RunControl& control);
 

@@ -41,6 +41,7 @@ CutLane::CutLane(const CutLane& other, std::size_t trail_size, std::uint32_t num
       relaxation(other.relaxation, shared.lp, number),
       state(other.state, propagator, relaxation),
       separator(shared.problem, shared.graph),
+      late_bonuses_(other.late_bonuses_),
       number_(number) {
     state.undo(trail_size);
 }
@@ -66,6 +67,25 @@ LpEngine::Outcome CutLane::solve(std::int64_t max_iterations) {
     return outcome;
 }
 
+void CutLane::begin() {
+    if (shared.techniques.late_bonuses) {
+        late_bonuses_.leave_out(shared.problem, relaxation, shared.techniques.many_bonuses);
+    }
+}
+
+void CutLane::add_initial_rows() {
+    for (Cut& cut : conflict_clique_cuts(shared.problem, shared.graph, *control_)) {
+        relaxation.add(std::move(cut));
+    }
+    std::vector<std::int32_t> present;
+    for (std::int32_t k = 0; k < shared.graph.bonus_count(); ++k) {
+        if (!relaxation.is_left_out(shared.problem.label_count() + k)) present.push_back(k);
+    }
+    for (Cut& cut : link_clique_cuts(shared.problem, shared.graph, present, *control_)) {
+        relaxation.add(std::move(cut));
+    }
+}
+
 bool CutLane::fix_by_bounds() {
     if (best_value == kNoValue || !shared.techniques.fixing) return true;
     for (bool is_new = true; is_new;) {
@@ -87,7 +107,10 @@ std::size_t CutLane::add_violated_rules() {
     const auto x = relaxation.x();
     const RowSystem& rows = shared.rows;
     std::int64_t entries = 0;
-    std::size_t added = relaxation.restore_violated_rows(entries);
+    const double gap = static_cast<double>(relaxation.bound() - std::max(best_value, Value{0}));
+    std::size_t added =
+        late_bonuses_.bring_in(shared.problem, shared.graph, gap, relaxation, *control_);
+    added += relaxation.restore_violated_rows(entries);
     for (std::int32_t r = 0; r < rows.row_count(); ++r) {
         double activity = 0;
         for (const Term& t : rows.terms(r)) activity += t.coefficient * x[t.label];

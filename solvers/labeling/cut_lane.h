@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "labeling/clique_cuts.h"
+#include "labeling/late_bonuses.h"
 #include "labeling/lp_engine.h"
 #include "labeling/node_state.h"
 #include "labeling/problem.h"
@@ -64,9 +65,14 @@ public:
     void accept(Solution solution);
 
     LpEngine::Outcome solve(std::int64_t max_iterations);
+    /// Before anything else: leaves small bonuses out of the LP where labels have many.
+    void begin();
+    /// Conflicts, and the links of the bonuses in the LP.
+    void add_initial_rows();
     /// Fixes what the exact bound allows; false when that leaves no better solution.
     bool fix_by_bounds();
-    /// Rows left out of the LP that its solution violates: dropped ones and rules.
+    /// Rows left out of the LP that its solution violates: dropped ones and rules; bonuses that it
+    /// overrates.
     std::size_t add_violated_rules();
     std::size_t add_cliques(const CliqueCutOptions& options);
     /// Rounds an integral LP solution; true when it was integral and feasible.
@@ -87,6 +93,7 @@ public:
 
 private:
     std::optional<Solution> found_;
+    LateBonuses late_bonuses_;
     RunControl* control_ = nullptr;
     int threads_ = 1;
     std::uint32_t number_ = 0;

@@ -30,6 +30,7 @@ public:
     virtual void add_row(std::span<const Entry> entries, double right_hand_side) = 0;
     /// Indices ascending; later rows move up.
     virtual void remove_rows(std::span<const std::int32_t> rows) = 0;
+    virtual void set_objective(std::int32_t column, double coefficient) = 0;
     virtual void set_bounds(std::int32_t column, double lower, double upper) = 0;
     virtual std::int32_t row_count() const = 0;
 

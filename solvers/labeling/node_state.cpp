@@ -65,6 +65,7 @@ void NodeState::undo(std::size_t size) {
 
 void NodeState::forbid_bonus(std::int32_t bonus) {
     const std::int32_t column = problem_.label_count() + bonus;
+    relaxation_.bring_in(bonus);
     if (!relaxation_.is_fixed(column)) relaxation_.fix(column, false);
 }
 

@@ -34,20 +34,65 @@ std::uint64_t hash_of(const Cut& cut) {
 }
 
 Relaxation::Relaxation(const LabelingProblem& problem, const LpFactory& factory)
-    : engine_(factory()), objective_(problem.weights().begin(), problem.weights().end()) {
+    : engine_(factory()),
+      bonuses_(problem.bonuses().begin(), problem.bonuses().end()),
+      objective_(problem.weights().begin(), problem.weights().end()) {
     for (const Bonus& b : problem.bonuses()) objective_.push_back(b.value);
     lower_.assign(objective_.size(), 0);
     upper_.assign(objective_.size(), 1);
-    Value largest = 1;
-    for (Value c : objective_) largest = std::max(largest, std::abs(c));
-    while (static_cast<double>(largest) / scale_ > 2048) scale_ *= 2;
-    while (static_cast<double>(largest) / scale_ < 512) scale_ /= 2;
+    choose_scale();
     reset_engine();
     bound_ = kHugeBound;
 }
 
+void Relaxation::choose_scale() {
+    scale_ = 1;
+    Value largest = 1;
+    for (Value c : objective_) largest = std::max(largest, std::abs(c));
+    while (static_cast<double>(largest) / scale_ > 2048) scale_ *= 2;
+    while (static_cast<double>(largest) / scale_ < 512) scale_ /= 2;
+}
+
+void Relaxation::leave_out(std::span<const std::int32_t> bonuses) {
+    if (bonuses.empty()) return;
+    const auto labels = static_cast<std::int32_t>(objective_.size() - bonuses_.size());
+    left_out_.assign(objective_.size(), 0);
+    for (const std::int32_t k : bonuses) {
+        const Bonus& b = bonuses_[k];
+        left_out_[labels + k] = 1;
+        objective_[labels + k] = 0;
+        objective_[b.first] += b.value / 2;
+        objective_[b.second] += b.value - b.value / 2;
+        lower_[labels + k] = upper_[labels + k] = 0;
+    }
+    choose_scale();
+    reset_engine();
+}
+
+void Relaxation::bring_in(std::int32_t bonus) {
+    const auto column = static_cast<std::int32_t>(objective_.size() - bonuses_.size()) + bonus;
+    if (!is_left_out(column)) return;
+    const Bonus& b = bonuses_[bonus];
+    left_out_[column] = 0;
+    objective_[column] = b.value;
+    objective_[b.first] -= b.value / 2;
+    objective_[b.second] -= b.value - b.value / 2;
+    for (const std::int32_t c : {column, b.first, b.second}) {
+        engine_->set_objective(c, static_cast<double>(objective_[c]) / scale_);
+    }
+    unfix(column);
+}
+
+double Relaxation::excess_of_left_out(std::int32_t bonus) const {
+    const Bonus& b = bonuses_[bonus];
+    const auto x = engine_->columns();
+    return static_cast<double>(b.value) / 2 * std::abs(x[b.first] - x[b.second]);
+}
+
 Relaxation::Relaxation(const Relaxation& other, const LpFactory& factory, std::uint32_t range)
     : engine_(factory()),
+      bonuses_(other.bonuses_),
+      left_out_(other.left_out_),
       objective_(other.objective_),
       lower_(other.lower_),
       upper_(other.upper_),
@@ -71,6 +116,10 @@ void Relaxation::reset_engine() {
 }
 
 bool Relaxation::add(Cut cut) {
+    // With a coefficient above 0, as every separator gives them, the rest stays valid.
+    std::erase_if(cut.entries, [this](const Cut::Entry& e) {
+        return e.coefficient > 0 && is_left_out(e.column);
+    });
     const std::uint64_t hash = hash_of(cut);
     if (row_hashes_[hash]++ > 0) {
         // Equal hashes of different rows cost a cut, never correctness.

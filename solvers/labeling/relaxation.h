@@ -47,7 +47,16 @@ public:
     std::int32_t column_count() const { return static_cast<std::int32_t>(objective_.size()); }
     std::int32_t row_count() const { return static_cast<std::int32_t>(rows_.size()); }
 
-    /// False when an equal row is there already.
+    /// Leaves bonuses out of the LP: the column stays at 0, and half of the value goes to each of
+    /// the two labels, which is no less than the bonus for any labeling. Before any row is added.
+    void leave_out(std::span<const std::int32_t> bonuses);
+    bool is_left_out(std::int32_t column) const { return !left_out_.empty() && left_out_[column]; }
+    /// Gives the bonus its column back; its links to the labels are the caller's.
+    void bring_in(std::int32_t bonus);
+    /// How much more than the bonus the two labels earn at x, in units.
+    double excess_of_left_out(std::int32_t bonus) const;
+
+    /// False when an equal row is there already. Columns that are left out are dropped from it.
     bool add(Cut cut);
     const Cut& row(std::int32_t r) const { return rows_[r].cut; }
     /// Power of two by which the LP's copy of the row is smaller.
@@ -98,6 +107,7 @@ private:
         double largest = 1;  ///< largest absolute number in the row
     };
 
+    void choose_scale();
     void reset_engine();
     void pass_to_engine(const Row& row);
     void insert(Row row);
@@ -108,6 +118,8 @@ private:
     static constexpr int kShift = 36;
 
     std::unique_ptr<LpEngine> engine_;
+    std::vector<Bonus> bonuses_;
+    std::vector<std::uint8_t> left_out_;  ///< per column; empty: none
     std::vector<Value> objective_;
     std::vector<std::int8_t> lower_, upper_;
     std::vector<Row> rows_;

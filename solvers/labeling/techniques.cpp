@@ -21,6 +21,7 @@ constexpr std::array kSwitches{
     Switch{"triple-cuts", &Techniques::triple_cuts},
     Switch{"rank-two-cuts", &Techniques::rank_two_cuts},
     Switch{"gomory-cuts", &Techniques::gomory_cuts},
+    Switch{"late-bonuses", &Techniques::late_bonuses},
     Switch{"fixing", &Techniques::fixing},
     Switch{"restarts", &Techniques::restarts},
     Switch{"strong-branching", &Techniques::strong_branching},
@@ -29,10 +30,10 @@ constexpr std::array kSwitches{
 }  // namespace
 
 Techniques techniques_of(const SolveOptions& options, std::string_view solver) {
-    require_known_extras(
-        options, solver,
-        {"tree-size", "tree-lanes", "heuristics", "reductions", "treewidth", "clique-cuts",
-         "triple-cuts", "rank-two-cuts", "gomory-cuts", "fixing", "restarts", "strong-branching"});
+    require_known_extras(options, solver,
+                         {"tree-size", "tree-lanes", "many-bonuses", "heuristics", "reductions",
+                          "treewidth", "clique-cuts", "triple-cuts", "rank-two-cuts", "gomory-cuts",
+                          "late-bonuses", "fixing", "restarts", "strong-branching"});
     Techniques techniques;
     for (const Switch& s : kSwitches) {
         const auto it = options.extra.find(s.key);
@@ -48,6 +49,8 @@ Techniques techniques_of(const SolveOptions& options, std::string_view solver) {
     constexpr std::int64_t kMostLanes = 16;
     techniques.tree_lanes = static_cast<int>(
         extra_integer(options, "tree-lanes", techniques.tree_lanes, 1, kMostLanes));
+    techniques.many_bonuses =
+        extra_integer(options, "many-bonuses", techniques.many_bonuses, 0, kMost);
     return techniques;
 }
 

@@ -15,6 +15,8 @@ struct Techniques {
     Label tree_size = 24;
     /// Dives of branch-and-cut's tree side by side, 1 to 16: as many threads can work on it.
     int tree_lanes = 2;
+    /// Bonuses per label from which on small ones enter the LP late.
+    std::int64_t many_bonuses = 4;
     /// Greedy and local search before and inside of branch-and-cut; a warm start needs them.
     bool heuristics = true;
     bool reductions = true;        ///< reductions.h, before anything else
@@ -23,6 +25,7 @@ struct Techniques {
     bool triple_cuts = true;       ///< triple_cuts.h
     bool rank_two_cuts = true;     ///< rank_two_cuts.h
     bool gomory_cuts = true;       ///< gomory_cuts.h
+    bool late_bonuses = true;      ///< late_bonuses.h
     bool fixing = true;            ///< of labels by the bounds of their reduced costs
     bool restarts = true;          ///< after fixing at the root
     bool strong_branching = true;  ///< off: by a guess from the relaxation alone

@@ -69,6 +69,10 @@ public:
         simplex_.deleteRows(static_cast<int>(rows.size()), rows.data());
     }
 
+    void set_objective(std::int32_t column, double coefficient) override {
+        simplex_.setObjectiveCoefficient(column, -coefficient);
+    }
+
     void set_bounds(std::int32_t column, double lower, double upper) override {
         simplex_.setColumnBounds(column, lower, upper);
     }

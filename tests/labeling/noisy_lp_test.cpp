@@ -24,6 +24,9 @@ public:
         engine_->add_row(entries, right_hand_side);
     }
     void remove_rows(std::span<const std::int32_t> rows) override { engine_->remove_rows(rows); }
+    void set_objective(std::int32_t column, double coefficient) override {
+        engine_->set_objective(column, coefficient);
+    }
     void set_bounds(std::int32_t column, double lower, double upper) override {
         engine_->set_bounds(column, lower, upper);
     }

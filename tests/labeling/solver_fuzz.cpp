@@ -134,6 +134,7 @@ Configuration draw(const std::string& solver, std::mt19937_64& engine) {
         if (pick(engine, 0, 2) == 0) c.extra["reductions"] = c.extra["treewidth"] = "off";
         const std::int64_t tree = pick(engine, 0, 3);
         if (tree < 3) c.extra["tree-size"] = std::to_string(tree * 4);
+        if (pick(engine, 0, 1) == 0) c.extra["many-bonuses"] = "0";
         if (pick(engine, 0, 1) == 0) c.extra["tree-lanes"] = std::to_string(pick(engine, 1, 5));
     } else if (solver == "greedy") {
         const std::vector<std::string> rules{"best", "weight", "blocked", "gain", "curve"};
