@@ -21,11 +21,16 @@ using labeling::SolveResult;
 using labeling::SolveStatus;
 using labeling::Value;
 
-/// Work for all calls together when neither a work nor a time limit is given (about ten seconds).
-/// A component may take half of what is left, so that one hard one does not starve the rest, and
-/// always gets enough for a good local search.
+/// Work for all calls together when neither a work nor a time limit is given (about ten seconds);
+/// then a component always gets enough for a good local search.
 constexpr std::int64_t kDefaultWork = 100'000'000;
 constexpr std::int64_t kLeastWork = 2'000'000;
+/// Where limits bind. A heuristic takes whatever it is given, so components share what is left by
+/// their size, small ones first: what they do not need goes to the large ones. A call leaves a
+/// quarter to those that follow.
+constexpr double kShareOfCall = 0.75;
+constexpr std::int64_t kSmallestShare = 1000;
+constexpr double kSmallestTime = 0.05;
 
 /// Labels whose value single-label rules and conflicts with labels fixed to 1 decide; -1 = free.
 /// nullopt when they contradict each other.
@@ -128,6 +133,11 @@ std::optional<Rule> reduced_rule(const Rule& rule, const std::vector<std::int8_t
     return result;
 }
 
+double size_of(const LabelingProblem& problem) {
+    return static_cast<double>(problem.label_count()) +
+           static_cast<double>(problem.conflict_count() + problem.bonus_count());
+}
+
 }  // namespace
 
 IncrementalSolver::IncrementalSolver(const labeling::Solver& solver, labeling::SolveOptions options)
@@ -147,7 +157,8 @@ const SolveResult* IncrementalSolver::recall(const LabelingProblem& problem) con
 }
 
 SolveResult IncrementalSolver::solve_component(const Component& component,
-                                               const std::vector<std::int8_t>& warm_start) {
+                                               const std::vector<std::int8_t>& warm_start,
+                                               double share) {
     if (const SolveResult* known = recall(component.problem)) {
         ++components_reused_;
         return *known;
@@ -156,13 +167,16 @@ SolveResult IncrementalSolver::solve_component(const Component& component,
     labeling::SolveOptions options = options_;
     if (options.time_limit) {
         const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start_;
-        options.time_limit =
-            std::max(std::chrono::duration<double>(0.05), *options.time_limit - used);
+        options.time_limit = std::max(std::chrono::duration<double>(kSmallestTime),
+                                      share * (*options.time_limit - used));
     }
+    const std::int64_t limit = options.work_limit.value_or(kDefaultWork);
+    const auto part = static_cast<std::int64_t>(
+        share * static_cast<double>(std::max<std::int64_t>(0, limit - work_used_)));
     if (options.work_limit) {
-        options.work_limit = std::max<std::int64_t>(1000, *options.work_limit - work_used_);
+        options.work_limit = std::max(kSmallestShare, part);
     } else if (!options.time_limit) {
-        options.work_limit = std::max(kLeastWork, (kDefaultWork - work_used_) / 2);
+        options.work_limit = std::max(kLeastWork, part);
     }
     options.warm_start.clear();
     if (!warm_start.empty()) {
@@ -229,9 +243,20 @@ SolveResult IncrementalSolver::solve(const LabelingProblem& problem,
     for (Label l = 0; l < problem.label_count(); ++l) solution.labels[l] = (*fixed)[l] == 1;
     Value value = fixed_value, bound = fixed_value;
     bool is_optimal = true, has_bound = true;
+    std::vector<Component> parts;
     for (int c = 0; c < components.count; ++c) {
-        Component component{builders[c].build(), std::move(members[c])};
-        const SolveResult result = solve_component(component, warm_start);
+        parts.push_back({builders[c].build(), std::move(members[c])});
+    }
+    std::stable_sort(parts.begin(), parts.end(), [](const Component& a, const Component& b) {
+        return size_of(a.problem) < size_of(b.problem);
+    });
+    double size_left = 0;
+    for (const Component& part : parts) size_left += size_of(part.problem);
+    for (const Component& component : parts) {
+        const double size = size_of(component.problem);
+        const SolveResult result =
+            solve_component(component, warm_start, kShareOfCall * size / size_left);
+        size_left -= size;
         total.work += result.work;
         if (result.stop_reason != labeling::StopReason::Finished) {
             total.stop_reason = result.stop_reason;

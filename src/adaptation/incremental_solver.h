@@ -18,7 +18,7 @@ public:
     IncrementalSolver(const labeling::Solver& solver, labeling::SolveOptions options);
 
     /// `warm_start` (may be empty): one label value each. Time and work limits are for all calls
-    /// together; without either there is a default of work.
+    /// together, shared by the components' sizes; without either there is a default of work.
     labeling::SolveResult solve(const labeling::LabelingProblem& problem,
                                 const std::vector<std::int8_t>& warm_start);
 
@@ -35,8 +35,9 @@ private:
         labeling::SolveResult result;
     };
 
+    /// `share` of the limits that are left.
     labeling::SolveResult solve_component(const Component& component,
-                                          const std::vector<std::int8_t>& warm_start);
+                                          const std::vector<std::int8_t>& warm_start, double share);
     const labeling::SolveResult* recall(const labeling::LabelingProblem& problem) const;
 
     const labeling::Solver& solver_;
