@@ -242,10 +242,12 @@ public:
         const RowSystem rows(problem);
         GreedyOptions greedy;
         greedy.rule = rule_of(options);
+        greedy.start = options.warm_start;
         GreedyResult found = greedy_labeling(problem, rows, control, greedy);
         if (found.solution) control.report(found.solution->value, std::nullopt);
-        if (!options.warm_start.empty() && !control.is_over())
-            complete_start(problem, rows, options, control, greedy, found);
+        if (!greedy.start.empty() && !control.is_over()) {
+            start_afresh(problem, rows, control, greedy, found);
+        }
         SolveResult result = finish(problem, name(), control, std::move(found.solution),
                                     std::nullopt, found.is_infeasible);
         result.statistics["insertions"] = static_cast<double>(found.insertions);
@@ -255,19 +257,17 @@ public:
 
 private:
     /// A start may be worse than what is built without it: the better one counts.
-    static void complete_start(const LabelingProblem& problem, const RowSystem& rows,
-                               const SolveOptions& options, RunControl& control,
-                               GreedyOptions greedy, GreedyResult& found) {
-        greedy.start = options.warm_start;
-        GreedyResult from_start = greedy_labeling(problem, rows, control, greedy);
-        found.insertions += from_start.insertions;
-        found.backtracks += from_start.backtracks;
+    static void start_afresh(const LabelingProblem& problem, const RowSystem& rows,
+                             RunControl& control, GreedyOptions greedy, GreedyResult& found) {
+        greedy.start = {};
+        GreedyResult afresh = greedy_labeling(problem, rows, control, greedy);
+        found.insertions += afresh.insertions;
+        found.backtracks += afresh.backtracks;
         const bool is_better =
-            from_start.solution &&
-            (!found.solution || from_start.solution->value > found.solution->value);
+            afresh.solution && (!found.solution || afresh.solution->value > found.solution->value);
         if (!is_better) return;
-        control.report(from_start.solution->value, std::nullopt);
-        found.solution = std::move(from_start.solution);
+        control.report(afresh.solution->value, std::nullopt);
+        found.solution = std::move(afresh.solution);
     }
 };
 
