@@ -1,44 +1,24 @@
 // The commands that make runs.
-#include <pthread.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <memory>
-#include <stop_token>
 #include <string>
-#include <thread>
 
 #include "commands.h"
 #include "experiment/campaign.h"
 #include "experiment/execute.h"
 #include "experiment/study.h"
 #include "labeling/errors.h"
+#include "tools/stop_at_signals.h"
 
 namespace experiment {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The first Ctrl-C asks for a stop, the second one ends the program.
-std::stop_token stop_at_signals() {
-    static std::stop_source source;
-    sigset_t signals;
-    sigemptyset(&signals);
-    sigaddset(&signals, SIGINT);
-    sigaddset(&signals, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    std::thread([signals] {
-        int signal = 0;
-        if (sigwait(&signals, &signal) != 0) return;
-        source.request_stop();
-        if (sigwait(&signals, &signal) == 0) std::_Exit(128 + signal);
-    }).detach();
-    return source.get_token();
-}
 
 std::string duration(double seconds) {
     char text[40];
@@ -104,7 +84,7 @@ int go_on(const RunArguments& arguments) {
     CampaignOptions options;
     options.jobs = arguments.jobs;
     options.is_pinned = !arguments.is_unpinned;
-    options.stop = stop_at_signals();
+    options.stop = labeling::stop_at_signals();
     CampaignOutcome outcome;
     {
         ProgressLine line(arguments.is_quiet);

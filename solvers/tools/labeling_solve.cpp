@@ -4,16 +4,11 @@
 // Solves one labeling problem and prints a line: file, solver, status, stop reason, value, bound,
 // gap, work, seconds, processor seconds of the whole program. SIGINT and SIGTERM end it with the
 // best so far. Exit codes: 0 solved or feasible, 2 usage, 3 bad input, 4 no solution.
-#include <pthread.h>
-
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <exception>
-#include <stop_token>
 #include <string>
-#include <thread>
 
 #include "labeling/errors.h"
 #include "labeling/formats.h"
@@ -22,6 +17,7 @@
 #include "labeling/text_file.h"
 #include "tools/argument_words.h"
 #include "tools/result_json.h"
+#include "tools/stop_at_signals.h"
 #ifdef LABELING_WITH_MIP
 #include "labeling_mip/mip_solvers.h"
 #endif
@@ -113,26 +109,9 @@ void print_line(const Arguments& arguments, const labeling::SolveResult& result,
     std::printf("\n");
 }
 
-/// The first SIGINT or SIGTERM asks for a stop; the next one ends the program.
-std::stop_token stop_at_signals() {
-    static std::stop_source source;
-    sigset_t signals;
-    sigemptyset(&signals);
-    sigaddset(&signals, SIGINT);
-    sigaddset(&signals, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    std::thread([signals] {
-        int signal = 0;
-        if (sigwait(&signals, &signal) != 0) return;
-        source.request_stop();
-        if (sigwait(&signals, &signal) == 0) std::_Exit(128 + signal);
-    }).detach();
-    return source.get_token();
-}
-
 int run(const Arguments& arguments) {
     auto options = arguments.options;
-    options.stop = stop_at_signals();
+    options.stop = labeling::stop_at_signals();
     const auto given = labeling::read_problem(arguments.file);
     const auto renamed = labeling::rename_labels(given, arguments.renaming);
     if (!arguments.start.empty()) {

@@ -216,7 +216,7 @@ Record execute(const Plan& plan, const Job& job, const fs::path& folder,
     seen.solution_file = command.solution_file;
     seen.error_file = scratch.path() / "errors.txt";
     if (planned.is_study) {
-        judge_study(seen, record, home, scratch.path());
+        judge_study(seen, record, home);
     } else {
         const auto problem = labeling::read_problem(home / planned.file);
         if (hexadecimal(problem.hash()) != planned.hash) {

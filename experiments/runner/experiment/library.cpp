@@ -10,6 +10,7 @@
 #include <set>
 
 #include "experiment/best_solution.h"
+#include "experiment/json_values.h"
 #include "labeling/errors.h"
 #include "labeling/formats.h"
 #include "labeling/proving_search.h"
@@ -103,29 +104,26 @@ std::string in_units(const PlannedProblem& problem, std::optional<std::int64_t> 
     return text;
 }
 
-json or_null(const std::optional<std::int64_t>& value) { return value ? json(*value) : json(); }
-
 json metadata(const Entry& entry, bool has_labels, bool has_certificate) {
     const PlannedProblem& p = entry.problem;
-    return {
-        {"name", p.name},
-        {"hash", p.hash},
-        {"group", p.group},
-        {"labels", p.labels},
-        {"conflicts", p.conflicts},
-        {"bonuses", p.bonuses},
-        {"rules", p.rules},
-        {"units_per_one", p.units_per_one},
-        {"origin", p.tags},
-        {"best_value", or_null(entry.value)},
-        {"best_bound", or_null(entry.bound)},
-        {"proven", entry.is_proven()},
-        {"value_found_by", entry.value_by},
-        {"proven_by", entry.proven_by},
-        {"fastest_proof_cpu_seconds", entry.fastest_proof ? json(*entry.fastest_proof) : json()},
-        {"fastest_prover", entry.fastest_prover},
-        {"has_labels", has_labels},
-        {"has_certificate", has_certificate}};
+    return {{"name", p.name},
+            {"hash", p.hash},
+            {"group", p.group},
+            {"labels", p.labels},
+            {"conflicts", p.conflicts},
+            {"bonuses", p.bonuses},
+            {"rules", p.rules},
+            {"units_per_one", p.units_per_one},
+            {"origin", p.tags},
+            {"best_value", or_null(entry.value)},
+            {"best_bound", or_null(entry.bound)},
+            {"proven", entry.is_proven()},
+            {"value_found_by", entry.value_by},
+            {"proven_by", entry.proven_by},
+            {"fastest_proof_cpu_seconds", or_null(entry.fastest_proof)},
+            {"fastest_prover", entry.fastest_prover},
+            {"has_labels", has_labels},
+            {"has_certificate", has_certificate}};
 }
 
 /// A proof that the best labels are optimal; nothing within the nodes.

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "experiment/hash.h"
+#include "experiment/json_values.h"
 #include "experiment/pattern.h"
 #include "labeling/errors.h"
 #include "labeling/text_file.h"
@@ -16,11 +17,6 @@ namespace experiment {
 namespace {
 
 using nlohmann::json;
-
-template <class Number>
-json or_null(const std::optional<Number>& value) {
-    return value ? json(*value) : json();
-}
 
 json to_json(const Limits& l) {
     return {{"seconds", or_null(l.seconds)},

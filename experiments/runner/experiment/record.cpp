@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "experiment/json_values.h"
 #include "labeling/errors.h"
 
 namespace experiment {
@@ -27,11 +28,6 @@ constexpr std::array<OutcomeName, 11> kOutcomes{{
     {Outcome::Crash, "crash"},
     {Outcome::Wrong, "wrong"},
 }};
-
-template <class Number>
-json or_null(const std::optional<Number>& value) {
-    return value ? json(*value) : json();
-}
 
 std::optional<std::int64_t> integer_or_nothing(const json& value) {
     if (value.is_null()) return std::nullopt;

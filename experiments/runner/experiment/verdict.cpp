@@ -224,8 +224,7 @@ void judge(const Observed& seen, const labeling::LabelingProblem& problem,
     judge_claims(record, has_labels, solver);
 }
 
-void judge_study(const Observed& seen, Record& record, const fs::path& home,
-                 const fs::path& scratch) {
+void judge_study(const Observed& seen, Record& record, const fs::path& home) {
     const json result = read_result(seen.result_file);
     if (!result.is_null()) take_result(result, record);
     if (judge_end(seen, record)) return;
@@ -240,7 +239,6 @@ void judge_study(const Observed& seen, Record& record, const fs::path& home,
     fs::create_directories(home / "segments", error);
     fs::copy_file(seen.solution_file, home / "segments" / (record.key + ".txt"),
                   fs::copy_options::overwrite_existing, error);
-    (void)scratch;
 }
 
 }  // namespace experiment

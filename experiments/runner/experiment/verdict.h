@@ -27,7 +27,6 @@ void judge(const Observed& seen, const labeling::LabelingProblem& problem,
 
 /// The same for a study, whose answer is numbers alone; keeps its network's segments in
 /// HOME/segments/KEY.txt.
-void judge_study(const Observed& seen, Record& record, const std::filesystem::path& home,
-                 const std::filesystem::path& scratch);
+void judge_study(const Observed& seen, Record& record, const std::filesystem::path& home);
 
 }  // namespace experiment
