@@ -6,29 +6,6 @@
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-environment="$root/build/solvers-venv"
-requirements="$root/solvers/python/requirements.txt"
-
-if [ ! -x "$environment/bin/python" ]; then
-    if ! python3 -m venv "$environment"; then
-        rm -rf "$environment"
-        echo "Python's venv is missing. On Debian, as root, type: apt-get install python3-venv" >&2
-        exit 1
-    fi
-fi
-
-wanted=()
-if [ "$#" -eq 0 ]; then
-    wanted=(-r "$requirements")
-else
-    for name in "$@"; do
-        line=$(grep -E "^$name==" "$requirements") || {
-            echo "unknown package '$name'; $requirements lists them" >&2
-            exit 2
-        }
-        wanted+=("$line")
-    done
-fi
-"$environment/bin/python" -m pip install --quiet --disable-pip-version-check "${wanted[@]}"
-"$environment/bin/python" -m pip list --disable-pip-version-check |
-    grep -iE '^(gurobipy|highspy|ortools|pyscipopt) '
+# shellcheck source=scripts/python_environment.sh
+. "$root/scripts/python_environment.sh"
+make_environment solvers-venv solvers/python/requirements.txt "$@"
