@@ -6,8 +6,10 @@
 #include "app/detection.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -15,12 +17,14 @@
 #include "app/command.h"
 #include "app/inputs.h"
 #include "app/length.h"
+#include "features/combine.h"
 #include "geometry/errors.h"
 
 namespace fcn::app {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
+constexpr const char* kMethods[] = {"auto", "sharp", "vsa"};
 
 SharpOptions sharp_options(const DetectionArguments& arguments, double diagonal) {
     if (arguments.low_angle_degrees > arguments.sharp_angle_degrees)
@@ -80,19 +84,52 @@ bool is_mechanical(const Mesh& mesh, const SharpOptions& options, double diagona
     return sharp > grey && sharp > diagonal;
 }
 
+FeatureCurveNetwork detect_by(const std::string& method, const LoadedMesh& mesh,
+                              const DetectionArguments& arguments, double diagonal, int threads) {
+    if (method == "vsa") return detect_vsa(mesh, vsa_options(arguments, mesh.mesh, threads));
+    return detect_sharp(mesh, sharp_options(arguments, diagonal));
+}
+
+/// "sharp+vsa" as its parts, each known.
+std::vector<std::string> parse_methods(const std::string& text) {
+    std::vector<std::string> methods;
+    std::istringstream in(text + "+");
+    for (std::string method; std::getline(in, method, '+');) {
+        if (std::ranges::find(kMethods, method) == std::end(kMethods))
+            throw UsageError(
+                fmt::format("'{}' is no detector; known: {}, and several "
+                            "joined by + (sharp+vsa)",
+                            method, fmt::join(kMethods, ", ")));
+        if (std::ranges::find(methods, method) != methods.end())
+            throw UsageError(fmt::format("{} is named twice", method));
+        methods.push_back(method);
+    }
+    return methods;
+}
+
 Detection detect_features(const LoadedMesh& mesh, const DetectionArguments& arguments,
                           double diagonal, int threads) {
     Detection detection;
-    detection.method = arguments.method;
+    CombineOptions combination;
+    if (!arguments.fuse_distance.empty())
+        combination.tolerance =
+            parse_length(arguments.fuse_distance, "--fuse-distance").resolve(diagonal);
     const SharpOptions sharp = sharp_options(arguments, diagonal);
-    if (arguments.method == "auto") {
-        detection.method = is_mechanical(mesh.mesh, sharp, diagonal) ? "sharp" : "vsa";
-        detection.messages.push_back(
-            fmt::format("feature detector chosen by --method auto: {}", detection.method));
+    std::vector<FeatureCurveNetwork> networks;
+    std::vector<std::string> done;
+    for (std::string method : parse_methods(arguments.method)) {
+        if (method == "auto") {
+            method = is_mechanical(mesh.mesh, sharp, diagonal) ? "sharp" : "vsa";
+            detection.messages.push_back(
+                fmt::format("feature detector chosen by --method auto: {}", method));
+        }
+        if (std::ranges::find(done, method) != done.end()) continue;
+        done.push_back(method);
+        networks.push_back(detect_by(method, mesh, arguments, diagonal, threads));
     }
-    if (detection.method == "sharp") detection.network = detect_sharp(mesh, sharp);
-    if (detection.method == "vsa")
-        detection.network = detect_vsa(mesh, vsa_options(arguments, mesh.mesh, threads));
+    detection.method = fmt::format("{}", fmt::join(done, "+"));
+    detection.network = networks.size() == 1 ? std::move(networks.front())
+                                             : combine_networks(networks, mesh, combination);
     return detection;
 }
 
@@ -165,9 +202,20 @@ void add_detection_arguments(CLI::App& parser, DetectionArguments& arguments) {
     parser
         .add_option("--method", arguments.method,
                     "Feature detector: sharp (creases), vsa (borders of nearly flat patches), "
-                    "auto (sharp for mechanical parts, vsa for scans)")
-        ->check(CLI::IsMember({"auto", "sharp", "vsa"}))
+                    "auto (sharp for mechanical parts, vsa for scans); several joined by + "
+                    "(sharp+vsa), where earlier ones win and later ones stop at them")
+        ->check([](const std::string& text) {
+            try {
+                parse_methods(text);
+                return std::string();
+            } catch (const UsageError& error) {
+                return std::string(error.what());
+            }
+        })
         ->capture_default_str();
+    parser.add_option("--fuse-distance", arguments.fuse_distance,
+                      "Of several detectors: no curve is lost that is farther than this from "
+                      "the others; half of it fuses (default: two mean edges, at most 1%)");
     add_sharp_arguments(parser, arguments);
     add_vsa_arguments(parser, arguments);
     constexpr const char* kGroup = "Mesh boundaries and borders between face labels";

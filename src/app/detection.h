@@ -13,8 +13,9 @@ namespace fcn::app {
 
 /// Where the initial network comes from: a detector, or a file.
 struct DetectionArguments {
-    std::string method = "auto";
-    std::string network_path;  ///< import instead of detecting; only where offered
+    std::string method = "auto";  ///< or several joined by +
+    std::string fuse_distance;    ///< empty = the default of combine_networks()
+    std::string network_path;     ///< import instead of detecting; only where offered
 
     double sharp_angle_degrees = 40;
     double low_angle_degrees = 18;
