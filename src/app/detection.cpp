@@ -18,13 +18,14 @@
 #include "app/inputs.h"
 #include "app/length.h"
 #include "features/combine.h"
+#include "features/wire.h"
 #include "geometry/errors.h"
 
 namespace fcn::app {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr const char* kMethods[] = {"auto", "sharp", "vsa"};
+constexpr const char* kMethods[] = {"auto", "sharp", "vsa", "wire"};
 
 SharpOptions sharp_options(const DetectionArguments& arguments, double diagonal) {
     if (arguments.low_angle_degrees > arguments.sharp_angle_degrees)
@@ -84,6 +85,28 @@ bool is_mechanical(const Mesh& mesh, const SharpOptions& options, double diagona
     return sharp > grey && sharp > diagonal;
 }
 
+WireOptions wire_options(const DetectionArguments& arguments, double diagonal, int threads) {
+    WireOptions options;
+    if (!arguments.wire_length.empty())
+        options.length = parse_length(arguments.wire_length, "--wire-length").resolve(diagonal);
+    options.attraction = arguments.wire_attraction;
+    options.max_anisotropy = arguments.wire_anisotropy;
+    options.threads = threads;
+    return options;
+}
+
+/// A user's wires, or links between the loose ends of what the detectors before have found.
+FeatureCurveNetwork detect_wires_beside(const std::vector<FeatureCurveNetwork>& networks,
+                                        const CombineOptions& combination, const LoadedMesh& mesh,
+                                        const DetectionArguments& arguments, double diagonal,
+                                        int threads) {
+    const WireOptions options = wire_options(arguments, diagonal, threads);
+    if (!arguments.wires_path.empty())
+        return detect_wires(mesh, read_wires(read_text(arguments.wires_path), arguments.wires_path),
+                            options);
+    return link_loose_ends(mesh, combine_networks(networks, mesh, combination), options);
+}
+
 FeatureCurveNetwork detect_by(const std::string& method, const LoadedMesh& mesh,
                               const DetectionArguments& arguments, double diagonal, int threads) {
     if (method == "vsa") return detect_vsa(mesh, vsa_options(arguments, mesh.mesh, threads));
@@ -117,7 +140,14 @@ Detection detect_features(const LoadedMesh& mesh, const DetectionArguments& argu
     const SharpOptions sharp = sharp_options(arguments, diagonal);
     std::vector<FeatureCurveNetwork> networks;
     std::vector<std::string> done;
-    for (std::string method : parse_methods(arguments.method)) {
+    std::vector<std::string> methods = parse_methods(arguments.method);
+    const bool has_wires = std::ranges::find(methods, "wire") != methods.end();
+    if (!arguments.wires_path.empty() && !has_wires)
+        throw UsageError("--seeds needs wire among the detectors (--method sharp+wire)");
+    // Without seeds wires link the loose ends of what came before them: of sharp edges at least.
+    if (methods.front() == "wire" && arguments.wires_path.empty())
+        methods.insert(methods.begin(), "sharp");
+    for (std::string method : methods) {
         if (method == "auto") {
             method = is_mechanical(mesh.mesh, sharp, diagonal) ? "sharp" : "vsa";
             detection.messages.push_back(
@@ -125,7 +155,10 @@ Detection detect_features(const LoadedMesh& mesh, const DetectionArguments& argu
         }
         if (std::ranges::find(done, method) != done.end()) continue;
         done.push_back(method);
-        networks.push_back(detect_by(method, mesh, arguments, diagonal, threads));
+        networks.push_back(
+            method == "wire"
+                ? detect_wires_beside(networks, combination, mesh, arguments, diagonal, threads)
+                : detect_by(method, mesh, arguments, diagonal, threads));
     }
     detection.method = fmt::format("{}", fmt::join(done, "+"));
     detection.network = networks.size() == 1 ? std::move(networks.front())
@@ -196,14 +229,40 @@ void add_vsa_arguments(CLI::App& parser, DetectionArguments& arguments) {
         ->group(kGroup);
 }
 
+void add_wire_arguments(CLI::App& parser, DetectionArguments& arguments) {
+    constexpr const char* kGroup = "Live-wire (wire)";
+    parser
+        .add_option("--seeds", arguments.wires_path,
+                    "File with the seeds of wires (JSON); without one, wires link loose ends of "
+                    "the detectors before")
+        ->group(kGroup);
+    parser
+        .add_option("--wire-length", arguments.wire_length,
+                    "Width of the features that attract wires (default 2%)")
+        ->group(kGroup);
+    parser
+        .add_option("--wire-attraction", arguments.wire_attraction,
+                    "How much features attract; 0 = shortest paths")
+        ->group(kGroup)
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+    parser
+        .add_option("--wire-anisotropy", arguments.wire_anisotropy,
+                    "How much cheaper steps along features can be")
+        ->group(kGroup)
+        ->check(CLI::Range(1.0, 1000.0))
+        ->capture_default_str();
+}
+
 }  // namespace
 
 void add_detection_arguments(CLI::App& parser, DetectionArguments& arguments) {
     parser
         .add_option("--method", arguments.method,
                     "Feature detector: sharp (creases), vsa (borders of nearly flat patches), "
-                    "auto (sharp for mechanical parts, vsa for scans); several joined by + "
-                    "(sharp+vsa), where earlier ones win and later ones stop at them")
+                    "wire (through seeds, or links between loose ends), auto (sharp for mechanical "
+                    "parts, vsa for scans); several joined "
+                    "by + (sharp+vsa), where earlier ones win and later ones stop at them")
         ->check([](const std::string& text) {
             try {
                 parse_methods(text);
@@ -218,6 +277,7 @@ void add_detection_arguments(CLI::App& parser, DetectionArguments& arguments) {
                       "the others; half of it fuses (default: two mean edges, at most 1%)");
     add_sharp_arguments(parser, arguments);
     add_vsa_arguments(parser, arguments);
+    add_wire_arguments(parser, arguments);
     constexpr const char* kGroup = "Mesh boundaries and borders between face labels";
     parser
         .add_option("--boundary", arguments.boundary,

@@ -28,6 +28,11 @@ struct DetectionArguments {
     bool is_unstraightened = false;
     std::string seed_faces_path;
 
+    std::string wires_path;   ///< empty = links between loose ends
+    std::string wire_length;  ///< empty = the default of WireOptions
+    double wire_attraction = 5;
+    double wire_anisotropy = 15;
+
     std::string boundary = "keep";
     double corner_angle_degrees = 45;
 };

@@ -53,6 +53,12 @@ class WrongCommandLines(ProgramTest):
         (["run", "box.off", "--scales", "300%", "--no-remesh"], "more than the bounding-box"),
         (["run", "box.off", "--scales", "1%", "--edge-lengths", "1%"], "excludes"),
         (["run", "box.off", "--method", "magic"], "magic"),
+        (["run", "box.off", "--method", "sharp+"], "'' is no detector"),
+        (["run", "box.off", "--method", "vsa+sharp+vsa"], "vsa is named twice"),
+        (["detect", "box.off", "-o", "a.obj", "--method", "sharp+vsa", "--fuse-distance", "0"],
+         "--fuse-distance"),
+        (["detect", "box.off", "-o", "a.obj", "--method", "sharp", "--seeds", "s.json"],
+         "--seeds needs wire"),
         (["run", "box.off", "--ratio", "1.8"], "1.8"),
         (["run", "box.off", "--ratio", "1"], "[1.01, sqrt(3))"),
         (["run", "box.off", "--lambda0", "-1"], "lambda0"),
@@ -151,6 +157,26 @@ class BadInputs(ProgramTest):
         for name, content, message in self.MESHES:
             with self.subTest(name=name):
                 self.refuse(name, content, ["detect", name, "-o", "net.fcn.json"], message)
+                self.assertFalse((self.folder / "net.fcn.json").exists())
+
+    SEEDS = [
+        ("missing.json", None, "missing.json"),
+        ("empty.json", "", "empty.json"),
+        ("nan.json", '{"wires":[{"points":[[0,0,NaN],[1,1,1]]}]}', "nan.json"),
+        ("key.json", '{"wires":[{"vertices":[0,1],"closd":true}]}', "/wires/0/closd: unknown key"),
+        ("far.json", '{"wires":[{"points":[[0,0,0],[9,9,9]]}]}', "from the surface"),
+        ("one.json", '{"wires":[{"vertices":[3]}]}', "needs 2"),
+        ("same.json", '{"wires":[{"vertices":[3,3]}]}', "same point"),
+        ("vertex.json", '{"wires":[{"vertices":[3,100000]}]}', "vertex 100000"),
+    ]
+
+    def test_seeds(self):
+        self.model("box", "--resolution", "0.3")
+        for name, content, message in self.SEEDS:
+            with self.subTest(name=name):
+                self.refuse(name, content, ["detect", "box.off", "--method", "wire", "--seeds",
+                                            name, "--threads", "1", "-o", "net.fcn.json"],
+                            message)
                 self.assertFalse((self.folder / "net.fcn.json").exists())
 
     def test_networks(self):
