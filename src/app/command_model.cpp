@@ -24,7 +24,7 @@ struct ModelArguments {
 int list_models(const CommonArguments& common) {
     Json list = Json::array();
     for (const ModelInfo& model : model_list()) {
-        if (!common.is_json) fmt::print("{:<14}{}\n", model.name, model.description);
+        if (!common.is_json) fmt::print("{:<20}{}\n", model.name, model.description);
         list.push_back({{"name", model.name}, {"description", model.description}});
     }
     if (common.is_json) print_json({{"models", list}});

@@ -120,6 +120,54 @@ ModelSurface make_torus(const ModelOptions& options) {
 
 namespace {
 
+/// Points on the superellipse x^4 + z^4 = tube^4, evenly spaced along it.
+std::vector<Eigen::Vector2d> superellipse(double tube, int count) {
+    constexpr int kFine = 4096;
+    const auto at = [&](double angle) -> Eigen::Vector2d {
+        const double c = std::cos(angle), s = std::sin(angle);
+        return Eigen::Vector2d(c, s) * tube / std::pow(c * c * c * c + s * s * s * s, 0.25);
+    };
+    std::vector<double> along{0};
+    for (int i = 1; i <= kFine; ++i) {
+        along.push_back(along.back() +
+                        (at(2 * kPi * i / kFine) - at(2 * kPi * (i - 1) / kFine)).norm());
+    }
+    std::vector<Eigen::Vector2d> points;
+    int i = 1;
+    for (int k = 0; k < count; ++k) {
+        const double target = along.back() * k / count;
+        while (along[i] < target) ++i;
+        const double share = (target - along[i - 1]) / (along[i] - along[i - 1]);
+        points.push_back(at(2 * kPi * (i - 1 + share) / kFine));
+    }
+    return points;
+}
+
+}  // namespace
+
+ModelSurface make_superellipse_torus(const ModelOptions& options) {
+    constexpr double kRadius = 0.35;
+    constexpr double kTube = 0.15;
+    constexpr double kOutline = 7.0177;  // length of the superellipse of radius 1
+    check_triangle_count(4 * kPi * kRadius * kOutline * kTube /
+                         (options.resolution * options.resolution));
+    ModelSurface surface;
+    const int row_count =
+        std::max(8, piece_count(kOutline * kTube, kRowHeight * options.resolution));
+    std::vector<Ring> rings;
+    for (const Eigen::Vector2d& at : superellipse(kTube, row_count)) {
+        const double radius = kRadius + at.x();
+        rings.push_back(add_ring(surface, radius, at.y(), ring_size(radius, options.resolution),
+                                 0.25 * static_cast<double>(rings.size() % 2)));
+    }
+    for (int row = 0; row < row_count; ++row) {
+        surface.zip_rings(rings[row], rings[(row + 1) % row_count]);
+    }
+    return surface;
+}
+
+namespace {
+
 /// Outline and top face of a gear; the outline runs counter-clockwise.
 class GearFace {
 public:

@@ -14,6 +14,7 @@ ModelSurface make_thin_wall(const ModelOptions& options);
 ModelSurface make_cylinder(const ModelOptions& options);
 ModelSurface make_sphere(const ModelOptions& options);
 ModelSurface make_torus(const ModelOptions& options);
+ModelSurface make_superellipse_torus(const ModelOptions& options);
 ModelSurface make_gear(const ModelOptions& options);
 ModelSurface make_octaflower(const ModelOptions& options);
 ModelSurface make_noisy_plane(const ModelOptions& options);

@@ -35,6 +35,9 @@ constexpr Model kModels[] = {
     {"box", "1 by 0.8 by 0.6", make_box, 0},
     {"cylinder", "radius 0.5, height 1, closed", make_cylinder, 0},
     {"torus", "radii 0.35 and 0.15", make_torus, 0},
+    {"superellipse-torus",
+     "radius 0.35, tube |x|^4 + |z|^4 = 0.15^4: four crest circles, 8 pi 0.35 long together",
+     make_superellipse_torus, 0},
     {"sphere", "radius 0.5", make_sphere, 0},
 };
 

@@ -24,7 +24,7 @@ struct ModelInfo {
 };
 
 /// skyscraper, ribs, steps, gear, octaflower, thin-wall, noisy-plane (and box, cylinder, torus,
-/// sphere for tests).
+/// superellipse-torus, sphere for tests).
 std::vector<ModelInfo> model_list();
 
 /// Throws InputError on an unknown name (listing the known) or an option out of range.

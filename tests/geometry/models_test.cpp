@@ -80,6 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Expectation{"noisy-plane", 1, 0}, Expectation{"box", 2, 0.48},
                       Expectation{"cylinder", 2, M_PI / 4},
                       Expectation{"torus", 0, 2 * M_PI* M_PI * 0.35 * 0.15 * 0.15},
+                      Expectation{"superellipse-torus", 0, 0.183480},
                       Expectation{"sphere", 2, M_PI / 6}),
     [](const auto& instance) {
         std::string name = instance.param.name;
@@ -260,7 +261,7 @@ TEST(ModelOptions, OutOfRangeIsRefusedWithAReason) {
 }
 
 TEST(ModelOptions, EveryListedModelCanBeMade) {
-    EXPECT_EQ(model_list().size(), 11U);
+    EXPECT_EQ(model_list().size(), 12U);
     for (const ModelInfo& info : model_list()) {
         fcn::ModelOptions options;
         options.resolution = 0.1;
