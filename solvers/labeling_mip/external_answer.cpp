@@ -232,6 +232,7 @@ void read_toulbar2_output(std::string_view output, ExternalAnswer& answer) {
         if (words[0] == "Optimum:" && words.size() > 1) {
             answer.claim = Claim::Optimal;
             answer.value = -finite(reader, words[1]);
+            answer.bound.reset();  // gaps printed on the way are closed
         } else if (words[0] == "No" && words.size() > 1 && words[1] == "solution") {
             answer.claim = Claim::Infeasible;
         } else if (words[0] == "Optimality" && words.size() > 3 && words[1] == "gap:") {

@@ -343,6 +343,15 @@ TEST(Answers, AreReadAsTheProgramsWriteThem) {
     EXPECT_EQ(toulbar2.claim, Claim::Feasible);
     EXPECT_EQ(toulbar2.value, 13);
     EXPECT_EQ(toulbar2.bound, 15);
+
+    const auto closed = labeling::read_answer(
+        AnswerFormat::Toulbar2, "1 0 1\n",
+        "Optimality gap: [-15, -12] 25.000 % (4 backtracks, 9 nodes)\n"
+        "Optimum: -13 in 7 backtracks and 15 nodes ( 0 removals by DEE) and 0.5 seconds.\n",
+        3);
+    EXPECT_EQ(closed.claim, Claim::Optimal);
+    EXPECT_EQ(closed.value, 13);
+    EXPECT_FALSE(closed.bound.has_value());
     const auto proven = labeling::read_answer(
         AnswerFormat::Toulbar2, "0 1 1\n",
         "Optimum: -13 in 5 backtracks and 11 nodes ( 0 removals by DEE) and 0.250 seconds.\n", 3);
