@@ -25,7 +25,7 @@ namespace fcn::app {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr const char* kMethods[] = {"auto", "sharp", "vsa", "wire"};
+constexpr const char* kMethods[] = {"auto", "sharp", "vsa", "crest", "wire"};
 
 SharpOptions sharp_options(const DetectionArguments& arguments, double diagonal) {
     if (arguments.low_angle_degrees > arguments.sharp_angle_degrees)
@@ -110,6 +110,9 @@ FeatureCurveNetwork detect_wires_beside(const std::vector<FeatureCurveNetwork>& 
 FeatureCurveNetwork detect_by(const std::string& method, const LoadedMesh& mesh,
                               const DetectionArguments& arguments, double diagonal, int threads) {
     if (method == "vsa") return detect_vsa(mesh, vsa_options(arguments, mesh.mesh, threads));
+    if (method == "crest")
+        return detect_crests(mesh, arguments.crest, sharp_options(arguments, diagonal), diagonal,
+                             threads);
     return detect_sharp(mesh, sharp_options(arguments, diagonal));
 }
 
@@ -142,6 +145,9 @@ Detection detect_features(const LoadedMesh& mesh, const DetectionArguments& argu
     std::vector<std::string> done;
     std::vector<std::string> methods = parse_methods(arguments.method);
     const bool has_wires = std::ranges::find(methods, "wire") != methods.end();
+    if (!arguments.crest.import_paths.empty() &&
+        std::ranges::find(methods, "crest") == methods.end())
+        throw UsageError("--import needs crest among the detectors (--method crest)");
     if (!arguments.wires_path.empty() && !has_wires)
         throw UsageError("--seeds needs wire among the detectors (--method sharp+wire)");
     // Without seeds wires link the loose ends of what came before them: of sharp edges at least.
@@ -260,6 +266,7 @@ void add_detection_arguments(CLI::App& parser, DetectionArguments& arguments) {
     parser
         .add_option("--method", arguments.method,
                     "Feature detector: sharp (creases), vsa (borders of nearly flat patches), "
+                    "crest (creases, ridges and ravines), "
                     "wire (through seeds, or links between loose ends), auto (sharp for mechanical "
                     "parts, vsa for scans); several joined "
                     "by + (sharp+vsa), where earlier ones win and later ones stop at them")
@@ -277,6 +284,7 @@ void add_detection_arguments(CLI::App& parser, DetectionArguments& arguments) {
                       "the others; half of it fuses (default: two mean edges, at most 1%)");
     add_sharp_arguments(parser, arguments);
     add_vsa_arguments(parser, arguments);
+    add_crest_arguments(parser, arguments.crest);
     add_wire_arguments(parser, arguments);
     constexpr const char* kGroup = "Mesh boundaries and borders between face labels";
     parser

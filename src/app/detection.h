@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "app/crest_arguments.h"
 #include "features/features.h"
 
 namespace CLI {
@@ -27,6 +28,8 @@ struct DetectionArguments {
     double min_patch_area = 0;
     bool is_unstraightened = false;
     std::string seed_faces_path;
+
+    CrestArguments crest;
 
     std::string wires_path;   ///< empty = links between loose ends
     std::string wire_length;  ///< empty = the default of WireOptions

@@ -30,8 +30,6 @@ constexpr double kTwigRadii = 1;        // shorter dead ends at forks are none
 constexpr int kLeastSharpEdges = 6;     // in a chain; shorter ones may be noise on a crest
 constexpr double kCertainAngle = 1.22;  // radians (70 degrees): sharp whatever runs beside it
 constexpr double kHopelessShare = 0.4;  // of thresholds, before gaps are bridged
-/// Patch ids of crest lines do not collide with those of patches.
-constexpr int kFirstLine = 1 << 24;
 
 void check(const CrestOptions& options) {
     const auto expect = [](double value, const char* name, double least, double most) {
@@ -149,7 +147,7 @@ FeatureCurveNetwork detect_crest(const LoadedMesh& mesh, const CrestOptions& opt
     std::vector<int> node_of_vertex(arrays.vertex_count(), -1);
     for (std::size_t n = 0; n < edges.node_vertices.size(); ++n)
         node_of_vertex[edges.node_vertices[n]] = static_cast<int>(n);
-    int next_line = kFirstLine;
+    int next_line = 0;
     for (std::size_t g = 0; g < graphs.size(); ++g)
         next_line = add_crest_arcs(graphs[g], node_of_vertex, sources[g], next_line, network);
     set_provenance(network, mesh);

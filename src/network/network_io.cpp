@@ -7,18 +7,21 @@
 #include <cctype>
 
 #include "geometry/errors.h"
+#include "network/crest_file.h"
 #include "network/network_formats.h"
 #include "network/place_on_surface.h"
 
 namespace fcn {
 namespace {
 
-enum class Format { Json, Obj, Ply, Vtp, Medit, Gmsh, Sharp, Fl, Polylines, Unknown };
+enum class Format { Json, Obj, Ply, Vtp, Medit, Gmsh, Sharp, Fl, Polylines, Crest, Unknown };
 
 constexpr const char* kKnownNames =
     ".fcn.json, .obj, .ply, .vtp, .mesh, .msh, .sharp, .fl or .polylines.txt (or one of them .gz)";
+constexpr const char* kReadOnlyNames = "; read alone are ridges.txt and ravines.txt";
 
 Format format_of_name(const std::filesystem::path& path) {
+    if (is_crest_file_name(path)) return Format::Crest;
     std::string name = path.filename().string();
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -72,6 +75,8 @@ EdgeSoup read_edges(Format format, const std::string& content, const std::string
             return read_sharp(content, source, needed(mesh, source));
         case Format::Fl:
             return read_fl(content, source, needed(mesh, source));
+        case Format::Crest:
+            return crest_edges(read_crest_file(content, source));
         default:
             return read_polylines(content, source);
     }
@@ -124,7 +129,7 @@ FeatureCurveNetwork network_from_content(const std::string& content,
     if (format == Format::Unknown) format = format_of_name(name);
     if (format == Format::Unknown)
         throw InputError(source + ": not a network format by content or name; expected " +
-                         kKnownNames);
+                         kKnownNames + kReadOnlyNames);
     FeatureCurveNetwork network = format == Format::Json
                                       ? network_from_json(content, source)
                                       : chain_edges(read_edges(format, content, source, mesh));
@@ -137,6 +142,8 @@ void write_network(const std::filesystem::path& path, const FeatureCurveNetwork&
                    NetworkDetail detail, const LoadedMesh* mesh) {
     const Format format = path == "-" ? Format::Json : format_of_name(path);
     const std::string target = path.string();
+    if (format == Format::Crest)
+        throw InputError(target + ": this format is read alone; write " + kKnownNames);
     if (format == Format::Unknown)
         throw InputError(target + ": unknown network format; expected " + kKnownNames);
     write_file_atomically(path, encode(format, target, network, detail, mesh));
