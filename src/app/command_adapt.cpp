@@ -8,6 +8,7 @@
 #include "app/inputs.h"
 #include "app/json_summary.h"
 #include "app/outputs.h"
+#include "app/pin_arguments.h"
 #include "app/pipeline.h"
 #include "app/run_files.h"
 
@@ -20,6 +21,7 @@ struct AdaptArguments {
     DetectionArguments detection;
     ScaleArguments scale;
     AdaptationArguments adaptation;
+    PinArguments pins;
     std::string input;
     std::string output;
     std::string problem_folder;
@@ -56,13 +58,18 @@ int exit_code(const AdaptationResult& result) {
 
 int adapt(const AdaptArguments& arguments) {
     prepare_output(arguments.output, OutputKind::Network, arguments.common);
+    arguments.pins.rules();  // a wrong command line is known before the mesh is read
     const ScaleRequest scale = arguments.scale.request();
     AdaptationOptions options = arguments.adaptation.options(arguments.common);
     const LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
     options.rmin = resolve_scale(scale, bounding_box(mesh.mesh).diagonal());
-    const Detection detection =
+    Detection detection =
         detect_network(mesh, arguments.detection, arguments.common.thread_count());
+    add_pins(detection, mesh, arguments.pins, options.rmin);
     for (const std::string& message : detection.messages) print_note(arguments.common, message);
+    for (const std::string& message :
+         require_pins_hold(detection.network, mesh, options, arguments.pins))
+        print_warning(arguments.common, message);
     options.is_recording_problems = !arguments.problem_folder.empty();
 
     ProgressBar bar(!arguments.common.is_quiet);
@@ -109,6 +116,7 @@ Command add_adapt_command(CLI::App& program) {
     add_scale_arguments(*parser, arguments->scale);
     add_adaptation_arguments(*parser, arguments->adaptation);
     add_detection_arguments(*parser, arguments->detection);
+    add_pin_arguments(*parser, arguments->pins);
     add_mesh_arguments(*parser, arguments->mesh);
     add_common_arguments(*parser, arguments->common);
     parser->footer(

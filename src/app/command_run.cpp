@@ -26,6 +26,7 @@ struct RunArguments {
     MeshArguments mesh;
     DetectionArguments detection;
     AdaptationArguments adaptation;
+    PinArguments pins;
     LimitArguments comparison{0, 30'000'000, 0};
     std::vector<std::string> inputs;
     std::string scales;
@@ -79,6 +80,8 @@ Run prepare(const RunArguments& arguments) {
     options.common = arguments.common;
     options.mesh = arguments.mesh;
     options.detection = arguments.detection;
+    options.pins = arguments.pins;
+    options.pins.rules();  // throws for what is no arc, curve or box
     options.adaptation = arguments.adaptation.options(arguments.common);
     options.compared_solvers = compared_solvers(arguments.solvers);
     options.comparison = arguments.comparison.solve_options(arguments.common);
@@ -247,6 +250,7 @@ Command add_run_command(CLI::App& program) {
     add_run_arguments(*parser, *arguments);
     add_adaptation_arguments(*parser, arguments->adaptation);
     add_detection_arguments(*parser, arguments->detection);
+    add_pin_arguments(*parser, arguments->pins);
     add_mesh_arguments(*parser, arguments->mesh);
     add_common_arguments(*parser, arguments->common);
     parser->footer(

@@ -310,6 +310,8 @@ Detection detect_network(const LoadedMesh& mesh, const DetectionArguments& argum
         detection.network =
             add_boundaries(detection.network, mesh, boundary_policy(arguments.boundary),
                            arguments.corner_angle_degrees * kRadians);
+    if (detection.network.curves.empty() && !detection.network.is_adapted())
+        find_curves(detection.network);  // numbers for --keep curve:N
     const auto& notes = detection.network.notes;
     detection.messages.insert(detection.messages.end(), notes.begin(), notes.end());
     if (detection.network.arcs.empty())

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "app/inputs.h"
@@ -98,12 +99,22 @@ MeshRecord start_record(const std::string& path, const std::vector<ScaleRequest>
     MeshRecord record;
     record.mesh = read_mesh(path, options.mesh.read_options());
     const double diagonal = bounding_box(record.mesh.mesh).diagonal();
-    for (const ScaleRequest& scale : scales) resolve_scale(scale, diagonal);
+    double largest = 0;
+    for (const ScaleRequest& scale : scales)
+        largest = std::max(largest, resolve_scale(scale, diagonal));
     record.messages = record.mesh.repairs.messages();
     Detection detection =
         detect_network(record.mesh, options.detection, options.common.thread_count());
+    add_pins(detection, record.mesh, options.pins, largest);
     record.messages.insert(record.messages.end(), detection.messages.begin(),
                            detection.messages.end());
+    for (const ScaleRequest& scale : scales) {
+        AdaptationOptions adaptation = options.adaptation;
+        adaptation.rmin = resolve_scale(scale, diagonal);
+        const std::vector<std::string> conflicts =
+            require_pins_hold(detection.network, record.mesh, adaptation, options.pins);
+        record.messages.insert(record.messages.end(), conflicts.begin(), conflicts.end());
+    }
     record.initial = std::move(detection.network);
     record.method = std::move(detection.method);
     return record;

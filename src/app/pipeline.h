@@ -6,6 +6,7 @@
 
 #include "app/adaptation_arguments.h"
 #include "app/detection.h"
+#include "app/pin_arguments.h"
 #include "app/progress.h"
 #include "report/report.h"
 
@@ -16,6 +17,7 @@ struct PipelineOptions {
     CommonArguments common;
     MeshArguments mesh;
     DetectionArguments detection;
+    PinArguments pins;
     AdaptationOptions adaptation;               ///< rmin is set per scale
     std::vector<std::string> compared_solvers;  ///< side by side on the first problem
     labeling::SolveOptions comparison;          ///< limits of each of them
@@ -36,8 +38,8 @@ std::vector<SolverComparison> compare_solvers(const labeling::LabelingProblem& p
                                               const std::string& problem_name,
                                               const PipelineOptions& options);
 
-/// Reads the mesh, makes sure that the scales fit it, and finds its features; the record has no
-/// scales yet.
+/// Reads the mesh, makes sure that the scales fit it, finds its features and pins them; the record
+/// has no scales yet. InputError if the pins cannot hold at one of the scales.
 MeshRecord start_record(const std::string& path, const std::vector<ScaleRequest>& scales,
                         const PipelineOptions& options);
 

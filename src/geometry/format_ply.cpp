@@ -13,6 +13,7 @@
 #include "geometry/mesh_formats.h"
 #include "geometry/text_cursor.h"
 #include "geometry/text_writer.h"
+#include "geometry/vertex_values.h"
 
 namespace fcn {
 
@@ -216,6 +217,19 @@ class PlyReader {
 public:
     PlyReader(std::string_view content, const std::string& source) : in_(content, source) {}
 
+    /// The vertices with a property of theirs; what follows them is not read.
+    VertexValues vertex_values(const std::string& property) {
+        const Header header = read_header(in_);
+        PlyValues values(in_, header.encoding);
+        values_ = &values;
+        value_name_ = property;
+        for (const Element& element : header.elements) {
+            read_element(element);
+            if (element.name == "vertex") break;
+        }
+        return {std::move(soup_.points), std::move(vertex_values_)};
+    }
+
     PolygonSoup run() {
         const Header header = read_header(in_);
         PlyValues values(in_, header.encoding);
@@ -279,14 +293,22 @@ private:
         if (element.properties[static_cast<std::size_t>(axes[0])].type == Type::Float32) {
             soup_.precision = 0x1p-24;
         }
+        const int value = value_name_.empty() ? -1 : index_of(element, {value_name_}, false);
+        if (!value_name_.empty() && value < 0) {
+            values_->fail("the vertices have no property '" + value_name_ + "'");
+        }
         soup_.points.reserve(element.count);
         for (std::size_t i = 0; i < element.count; ++i) {
             Vec3 point = Vec3::Zero();
             for (int p = 0; p < static_cast<int>(element.properties.size()); ++p) {
                 const Property& property = element.properties[static_cast<std::size_t>(p)];
                 const auto axis = std::find(axes.begin(), axes.end(), p);
-                if (axis == axes.end()) {
+                if (axis == axes.end() && p != value) {
                     skip(property);
+                    continue;
+                }
+                if (p == value) {
+                    vertex_values_.push_back(values_->number(property.type, "a value"));
                 } else {
                     point[axis - axes.begin()] = values_->number(property.type, "a coordinate");
                 }
@@ -369,6 +391,8 @@ private:
     TextCursor in_;
     PlyValues* values_ = nullptr;
     PolygonSoup soup_;
+    std::string value_name_;  ///< of a vertex property asked for
+    std::vector<double> vertex_values_;
     std::array<int, 2> strip_{};
 };
 
@@ -380,6 +404,11 @@ void append_little_endian(TextWriter& out, Value value) {
 }
 
 }  // namespace
+
+VertexValues read_ply_values(std::string_view content, const std::string& source,
+                             const std::string& property) {
+    return PlyReader(content, source).vertex_values(property);
+}
 
 PolygonSoup read_ply(std::string_view content, const std::string& source) {
     return PlyReader(content, source).run();

@@ -75,6 +75,10 @@ class WrongCommandLines(ProgramTest):
         (["adapt", "box.off", "-o", "a.fcn.json", "--scale", "1%", "--time-limit", "0"],
          "time-limit"),
         (["adapt", "box.off", "-o", "a.fcn.json", "--scale", "1%", "--boundary", "cut"], "cut"),
+        (["adapt", "box.off", "-o", "a.fcn.json", "--scale", "1%", "--keep", "arcs:3"], "'arcs:3'"),
+        (["run", "box.off", "--drop", "curve:x"], "neither arc:NUMBER nor curve:NUMBER"),
+        (["adapt", "box.off", "-o", "a.fcn.json", "--scale", "1%", "--keep-box", "0,0,0,1,1"],
+         "no box"),
         (["remesh", "box.off", "-o", "a.obj", "--scale", "5%", "--type", "quad"],
          "not available in this version"),
         (["remesh", "box.off", "-o", "a.obj"], "--scale"),
@@ -178,6 +182,34 @@ class BadInputs(ProgramTest):
                                             name, "--threads", "1", "-o", "net.fcn.json"],
                             message)
                 self.assertFalse((self.folder / "net.fcn.json").exists())
+
+    PINS = [
+        (["--keep", "arc:12"], "arc 12 does not exist"),
+        (["--drop", "curve:999"], "curve 999 does not exist"),
+        (["--keep", "arc:1", "--drop", "arc:1"], "to be kept and to be dropped"),
+        (["--keep-box", "7,7,7,8,8,8"], "no feature passes"),
+        (["--importance", "missing.txt"], "missing.txt"),
+        (["--importance", "short.txt"], "3 values, the mesh has"),
+        (["--importance", "word.txt"], "word.txt:2"),
+        (["--importance", "box.ply"], "no property 'importance'"),
+        (["--keep-above", "-1", "--importance", "short.txt"], "--keep-above"),
+        # The edges of the box are shorter than the scale.
+        (["--keep-box", "-9,-9,-9,9,9,9", "--scale", "70%"], "rmin long near"),
+    ]
+
+    def test_pins(self):
+        self.model("box", "--resolution", "0.3")
+        self.succeed("convert", "box.off", "box.ply", "--as", "mesh")
+        self.write("short.txt", "1\n2\n3\n")
+        self.write("word.txt", "1\ntwo\n")
+        for arguments, message in self.PINS:
+            with self.subTest(arguments=arguments):
+                scale = [] if "--scale" in arguments else ["--scale", "5%"]
+                code = USAGE if "--keep-above" in arguments else BAD_INPUT
+                self.refuse("unused", None,
+                            ["adapt", "box.off", "--threads", "1", "--method", "sharp",
+                             "-o", "a.fcn.json", *scale, *arguments], message, code)
+                self.assertFalse((self.folder / "a.fcn.json").exists())
 
     def test_networks(self):
         for name, content, message in self.NETWORKS:

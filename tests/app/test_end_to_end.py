@@ -48,6 +48,46 @@ class StepByStep(ProgramTest):
         self.assertEqual(measure["triangles"]["faces"], remesh["triangles"]["faces"])
         self.assertLess(measure["distance"]["hausdorff_over_diagonal"], 0.08)
 
+    def test_pins_are_kept_and_dropped(self):
+        """Ribs closer than the scale: most are dropped, and pins decide which."""
+        self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")
+        adapt = ["adapt", "ribs.off", "--method", "sharp", "--scale", "12%", "-o", "a.fcn.json"]
+        self.succeed(*adapt)
+        before = json.loads((self.folder / "a.fcn.json").read_text())
+        lost = [d["origin_arc"] for d in before["dropped"] if d["reason"] == "conflict"]
+        kept = {o for arc in before["arcs"] for o in arc["origins"]}
+        lost = [a for a in lost if a not in kept]
+        self.assertTrue(lost)
+        out = min(kept)
+        self.succeed(*adapt, "--keep", f"arc:{lost[0]}", "--drop", f"arc:{out}")
+        after = json.loads((self.folder / "a.fcn.json").read_text())
+        pinned = {o for arc in after["arcs"] if arc["pin"] == "keep" for o in arc["origins"]}
+        self.assertEqual(pinned, {lost[0]})
+        self.assertNotIn(out, {o for arc in after["arcs"] for o in arc["origins"]})
+        self.assertIn(("pinned out", out),
+                      {(d["reason"], d["origin_arc"]) for d in after["dropped"]})
+
+    def test_several_detectors_become_one_network(self):
+        self.model("gear")
+        lengths = {}
+        for method in ("sharp", "vsa", "sharp+vsa"):
+            lengths[method] = self.succeed_json("detect", "gear.off", "--method", method, "-o",
+                                                "net.fcn.json")["network"]["length"]
+        network = json.loads((self.folder / "net.fcn.json").read_text())
+        self.assertEqual({arc["source"] for arc in network["arcs"]}, {"sharp", "vsa"})
+        self.assertLess(lengths["sharp+vsa"], lengths["sharp"] + lengths["vsa"])
+        self.assertGreaterEqual(lengths["sharp+vsa"], max(lengths.values()) * (1 - 1e-9))
+
+    def test_wires_reach_the_adaptation(self):
+        self.model("octaflower", "--resolution", "0.04")
+        self.write("seeds.json", '{"wires":[{"vertices":[5,300],"pin":true}]}')
+        self.succeed("adapt", "octaflower.off", "--method", "wire", "--seeds", "seeds.json",
+                     "--scale", "2%", "-o", "a.fcn.json")
+        network = json.loads((self.folder / "a.fcn.json").read_text())
+        self.assertTrue(network["arcs"])
+        for arc in network["arcs"]:
+            self.assertEqual((arc["source"], arc["pin"]), ("wire", "keep"))
+
     def test_saved_problems_give_the_value_again(self):
         self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")
         adapted = self.succeed_json("adapt", "ribs.off", "--method", "sharp", "--scale", "8%",
