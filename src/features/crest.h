@@ -12,7 +12,7 @@ struct CrestOptions {
     CrestKind kind = CrestKind::Both;
     double rings = 0;   ///< radius of the fits in local edge lengths, >= 1.5; 0 = chosen by noise
     double radius = 0;  ///< the same in mesh units, instead of rings where > 0
-    double min_significance = 16;     ///< fall of e across a fit over its standard error
+    double min_significance = 14;     ///< fall of e across a fit over its standard error
     double min_sharpness = 1.2;       ///< curvature's fall across the line over its cube
     double min_ridgeness = 0.5;       ///< integral of |kappa| along the line
     double min_sphericalness = 0.05;  ///< mean window of the shape index, 0 to 1

@@ -14,7 +14,7 @@ namespace fcn {
 namespace {
 
 constexpr double kRings[] = {3, 4, 5, 6.5, 8, 10, 13};
-constexpr double kLargestError = 0.06;  // of e, in squared curvatures
+constexpr double kLargestError = 0.12;  // of e, in squared curvatures
 constexpr double kLargestRadius = 1.5;  // in radii of curvature
 constexpr int kSampleCount = 3000;
 constexpr double kClip = 0.99;  // quantile beyond which curvatures are outliers

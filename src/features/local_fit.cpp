@@ -1,19 +1,22 @@
 // Curvatures and their derivatives by local polynomial fits (Yoshizawa, Belyaev, Seidel 2005,
 // section 2): around every vertex the surface is a height over its tangent plane, a cubic fitted by
-// weighted least squares to the vertices near by and, as Goldfeather and Interrante (2004) propose,
-// to their normals, each of which gives two rows for the height's gradient. From the cubic's
-// coefficients the curvatures and their derivatives along the principal directions follow in closed
-// form, also where the tangent plane was not quite right:
+// weighted least squares to the vertices near by. From the cubic's coefficients the curvatures and
+// their derivatives along the principal directions follow in closed form, also where the tangent
+// plane was not quite right:
 //     kappa = h(t, t),  e = (z_ttt - 3 h(t, t) z_l z_lt) / W   for a direction t of unit length,
 // with h the second fundamental form of the graph z and W = sqrt(1 + |grad z|^2).
 //
-// Departures: the neighbourhood is a ball of some local edge lengths instead of a number of rings
-// (rings of an irregular mesh are ragged, which shows in third derivatives), weighted by a
-// Gaussian; it is what is connected to the vertex inside the ball, turned away from it by less than
-// 70 degrees, and not beyond a barrier. The cubic has a constant term, so noise of the vertex
-// itself counts no more than that of others. Normals of a noisy mesh are worse than positions, the
-// more so the larger the ball is, so their weight falls with the square of the ball's radius in
-// edges. The covariance of the fit gives every vertex the standard error of its results.
+// Departures: the normals of the vertices give no further rows, which the paper takes from
+// Goldfeather and Interrante (2004): normals of a mesh are wrong by the square of its edge length,
+// third derivatives from them by a share of the squared curvature that no refinement lowers, and on
+// fine tori that showed as lines. The neighbourhood is a ball of some local edge lengths instead of
+// a number of rings (rings of an irregular mesh are ragged, which shows in third derivatives),
+// weighted by a Gaussian; it is what is connected to the vertex inside the ball, turned away from
+// it by less than 70 degrees, and not beyond a barrier. The cubic has a constant term, so noise of
+// the vertex itself counts no more than that of others. The normals that tilt the local frames are
+// averaged over a quarter of the radius: a cubic over a tilted plane is another cubic, and
+// neighbours would not agree. The covariance of the fit gives every vertex the standard error of
+// its results.
 
 #include "features/local_fit.h"
 
@@ -31,7 +34,6 @@ namespace fcn {
 namespace {
 
 constexpr int kTerms = 10;
-constexpr double kLeastSlopeWeight = 0.03;  // normals count for nothing below it
 constexpr int kLeastNeighbors = 12;
 constexpr int kMostNeighbors = 4096;
 constexpr double kSpread = 0.5;                  // standard deviation of the weights, in radii
@@ -80,37 +82,32 @@ private:
     }
 };
 
-/// Vertices near by, in the local frame, in units of the radius; slopes of the height by their
-/// normals. Even in number, the last may weigh nothing.
+/// Vertices near by, in the local frame, in units of the radius. Even in number, the last may weigh
+/// nothing.
 struct Neighborhood {
-    std::vector<double> u, v, z, weight, slope_u, slope_v, slope_weight;
+    std::vector<double> u, v, z, weight;
     int count = 0;
 
     void clear() {
-        for (auto* row : {&u, &v, &z, &weight, &slope_u, &slope_v, &slope_weight}) row->clear();
+        for (auto* row : {&u, &v, &z, &weight}) row->clear();
         count = 0;
     }
     void pad() {
         count = static_cast<int>(u.size());
         if (count % 2 == 0) return;
-        for (auto* row : {&u, &v, &z, &weight, &slope_u, &slope_v, &slope_weight}) {
-            row->push_back(0);
-        }
+        for (auto* row : {&u, &v, &z, &weight}) row->push_back(0);
     }
 };
 
-/// The normal equations of heights and slopes.
+/// The normal equations. The residuals have the weighted sum of squares
+/// squares - 2 c.right + c.matrix c.
 struct Equations {
     Normal matrix = Normal::Zero();
     Row right = Row::Zero();
-    /// Weighted sum of squares of the heights' residuals = squares - 2 c.heights + c.height_matrix
-    /// c.
-    Normal height_matrix = Normal::Zero();
-    Row heights = Row::Zero();
     double squares = 0;
     double weight = 0;
 
-    explicit Equations(const Neighborhood& near, bool has_slopes) {
+    explicit Equations(const Neighborhood& near) {
         Moments<6> moments;
         Moments<3> values;
         Lanes square = Lanes::Zero();
@@ -124,16 +121,13 @@ struct Equations {
         squares = square.sum();
         weight = moments(0, 0);
         for (int i = 0; i < kTerms; ++i) {
-            heights[i] = factor(i) * values(kPowerU[i], kPowerV[i]);
+            right[i] = factor(i) * values(kPowerU[i], kPowerV[i]);
             for (int k = 0; k <= i; ++k) {
-                height_matrix(i, k) = height_matrix(k, i) =
+                matrix(i, k) = matrix(k, i) =
                     factor(i) * factor(k) *
                     moments(kPowerU[i] + kPowerU[k], kPowerV[i] + kPowerV[k]);
             }
         }
-        matrix = height_matrix;
-        right = heights;
-        if (has_slopes) add_slopes(near);
     }
 
 private:
@@ -142,31 +136,6 @@ private:
     }
     static double factor(int term) {
         return 1 / (kFactorial[kPowerU[term]] * kFactorial[kPowerV[term]]);
-    }
-
-    void add_slopes(const Neighborhood& near) {
-        Moments<4> moments;
-        Moments<2> values_u, values_v;
-        for (std::size_t i = 0; i < near.u.size(); i += 2) {
-            const Lanes u = lanes(near.u, i), v = lanes(near.v, i);
-            const Lanes w = lanes(near.slope_weight, i);
-            moments.add(u, v, w);
-            values_u.add(u, v, w * lanes(near.slope_u, i));
-            values_v.add(u, v, w * lanes(near.slope_v, i));
-        }
-        for (int i = 0; i < kTerms; ++i) {
-            const int ai = kPowerU[i], bi = kPowerV[i];
-            const double du = ai * factor(i), dv = bi * factor(i);
-            if (ai > 0) right[i] += du * values_u(ai - 1, bi);
-            if (bi > 0) right[i] += dv * values_v(ai, bi - 1);
-            for (int k = 0; k < kTerms; ++k) {
-                const int ak = kPowerU[k], bk = kPowerV[k];
-                if (ai > 0 && ak > 0)
-                    matrix(i, k) += du * ak * factor(k) * moments(ai + ak - 2, bi + bk);
-                if (bi > 0 && bk > 0)
-                    matrix(i, k) += dv * bk * factor(k) * moments(ai + ak, bi + bk - 2);
-            }
-        }
     }
 };
 
@@ -251,11 +220,9 @@ public:
         const Vec3& normal = smooth_normals_[vertex];
         if (fitter_.is_on_barrier(vertex) || !(edge > 0) || normal.isZero()) return result;
         const Frame frame = frame_of(normal);
-        const double edges = std::max(1.0, result.radius / edge);
-        const double slope_weight = 1 / (edges * edges);
-        gather(vertex, frame, result.radius, slope_weight, work);
+        gather(vertex, frame, result.radius, work);
         if (work.near.count < kLeastNeighbors) return result;
-        const Equations equations(work.near, slope_weight >= kLeastSlopeWeight);
+        const Equations equations(work.near);
         const Eigen::LDLT<Normal> solver(equations.matrix);
         const Row pivots = solver.vectorD();
         if (!(pivots.minCoeff() > kLeastPivot * pivots.maxCoeff())) return result;
@@ -268,8 +235,7 @@ public:
     }
 
 private:
-    void gather(int vertex, const Frame& frame, double radius, double slope_weight,
-                Workspace& work) const {
+    void gather(int vertex, const Frame& frame, double radius, Workspace& work) const {
         work.mark.resize(arrays_.points.size(), 0);
         work.queue.assign(1, vertex);
         work.near.clear();
@@ -278,7 +244,7 @@ private:
         const IndexRows& rows = fitter_.neighbors();
         for (std::size_t head = 0; head < work.queue.size(); ++head) {
             const int v = work.queue[head];
-            add(v, frame, (arrays_.points[v] - center) / radius, slope_weight, work.near);
+            add(frame, (arrays_.points[v] - center) / radius, work.near);
             if (fitter_.is_on_barrier(v)) continue;
             for (const int* n = rows.begin(v); n != rows.end(v); ++n) {
                 if (work.mark[*n] == work.round) continue;
@@ -292,19 +258,11 @@ private:
         work.near.pad();
     }
 
-    void add(int v, const Frame& frame, const Vec3& offset, double slope_weight,
-             Neighborhood& near) const {
-        const double weight = std::exp(-offset.squaredNorm() / (2 * kSpread * kSpread));
+    static void add(const Frame& frame, const Vec3& offset, Neighborhood& near) {
         near.u.push_back(offset.dot(frame.u));
         near.v.push_back(offset.dot(frame.v));
         near.z.push_back(-offset.dot(frame.normal));
-        near.weight.push_back(weight);
-        const Vec3& normal = fitter_.normal(v);
-        const double up = normal.dot(frame.normal);
-        const bool is_usable = !fitter_.is_on_barrier(v) && up >= kLeastFacing;
-        near.slope_u.push_back(is_usable ? normal.dot(frame.u) / up : 0);
-        near.slope_v.push_back(is_usable ? normal.dot(frame.v) / up : 0);
-        near.slope_weight.push_back(is_usable ? weight * slope_weight : 0);
+        near.weight.push_back(std::exp(-offset.squaredNorm() / (2 * kSpread * kSpread)));
     }
 
     static void describe(const GraphCurvature& graph, const Frame& frame, VertexFit& result) {
@@ -322,7 +280,7 @@ private:
                                const GraphCurvature& graph, const Equations& equations, int count,
                                VertexFit& result) {
         const double squares =
-            equations.squares - 2 * c.dot(equations.heights) + c.dot(equations.height_matrix * c);
+            equations.squares - 2 * c.dot(equations.right) + c.dot(equations.matrix * c);
         const double variance =
             std::max(0.0, squares) / equations.weight * count / std::max(1, count - kTerms);
         double kappa = 0, e = 0;

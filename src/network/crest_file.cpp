@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 
 #include "geometry/errors.h"
 #include "geometry/mesh_io.h"
