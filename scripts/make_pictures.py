@@ -25,6 +25,16 @@ def pictures_of(program, mesh, *options):
     return [(base64.b64decode(png), text) for png, text in PICTURE.findall(report)]
 
 
+def crest_picture(program, folder):
+    """Crest lines need a smooth surface."""
+    camel = ROOT / "build/meshes/camel.off"
+    png, text = pictures_of(program, camel, "--method", "crest", "--scales", "3%",
+                            "--no-remesh")[0]
+    path = folder / "detector_crest.png"
+    path.write_bytes(png)
+    print(f"{path.relative_to(ROOT)}: {text}")
+
+
 def main():
     program = sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release/bin/scalefcn"
     mesh = sys.argv[2] if len(sys.argv) > 2 else ROOT / "build/meshes/fandisk.off"
@@ -40,6 +50,7 @@ def main():
         path = folder / f"fandisk_{name}.png"
         path.write_bytes(png)
         print(f"{path.relative_to(ROOT)}: {text}")
+    crest_picture(program, folder)
 
 
 if __name__ == "__main__":
