@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Makes the pictures of the README: runs scalefcn on one mesh and takes them out of its report.
+"""Makes the pictures of the README and of docs/detectors.md: runs scalefcn on one mesh and takes
+them out of its report.
 
 Usage: scripts/make_pictures.py [PROGRAM [MESH]]
 """
 
 import base64
+import json
 import pathlib
 import re
 import subprocess
@@ -13,6 +15,15 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SHOWN = {"dropped", "remesh"}
+# Few seeds a curve, near the creases that the wires find.
+WIRES = {"wires": [
+    {"points": [[-0.38, 0.02, -0.04], [0.14, 0.15, -0.42], [0.46, 0.16, -0.50]], "pin": True},
+    {"points": [[-0.46, 0.256, -0.04], [0.12, 0.256, -0.407], [0.46, 0.256, -0.50]]},
+    {"points": [[0.46, 0.256, 0.308], [0.46, 0.256, -0.50]]},
+    {"points": [[0.00, -0.19, 0.39], [-0.23, -0.21, 0.25], [-0.46, -0.23, 0.15]]},
+]}
+DETECTORS = {"wire": ["--method", "wire", "--seeds", "{seeds}"],
+             "combination": ["--method", "sharp+vsa", "--patches", "60"]}
 PICTURE = re.compile(r'<img src="data:image/png;base64,([A-Za-z0-9+/=]+)" alt="([^"]*)"')
 
 
@@ -23,6 +34,19 @@ def pictures_of(program, mesh, *options):
                         *options], check=True, stdout=subprocess.DEVNULL)
         report = (pathlib.Path(scratch) / "report.html").read_text(encoding="utf-8")
     return [(base64.b64decode(png), text) for png, text in PICTURE.findall(report)]
+
+
+def detector_pictures(program, mesh, folder):
+    """What detectors find, without anything else."""
+    with tempfile.TemporaryDirectory() as scratch:
+        seeds = pathlib.Path(scratch) / "seeds.json"
+        seeds.write_text(json.dumps(WIRES), encoding="utf-8")
+        for name, options in DETECTORS.items():
+            pictures = pictures_of(program, mesh, "--scales", "2%", "--no-remesh",
+                                   *(option.format(seeds=seeds) for option in options))
+            path = folder / f"detector_{name}.png"
+            path.write_bytes(pictures[0][0])
+            print(f"{path.relative_to(ROOT)}: {pictures[0][1]}")
 
 
 def crest_picture(program, folder):
@@ -50,6 +74,7 @@ def main():
         path = folder / f"fandisk_{name}.png"
         path.write_bytes(png)
         print(f"{path.relative_to(ROOT)}: {text}")
+    detector_pictures(program, mesh, folder)
     crest_picture(program, folder)
 
 

@@ -91,6 +91,7 @@ WireOptions wire_options(const DetectionArguments& arguments, double diagonal, i
         options.length = parse_length(arguments.wire_length, "--wire-length").resolve(diagonal);
     options.attraction = arguments.wire_attraction;
     options.max_anisotropy = arguments.wire_anisotropy;
+    options.snap = arguments.wire_snap_percent / 100;
     options.threads = threads;
     return options;
 }
@@ -246,6 +247,12 @@ void add_wire_arguments(CLI::App& parser, DetectionArguments& arguments) {
         .add_option("--wire-length", arguments.wire_length,
                     "Width of the features that attract wires (default 2%)")
         ->group(kGroup);
+    parser
+        .add_option("--wire-snap", arguments.wire_snap_percent,
+                    "Seeds (points) move onto features within this % of the diagonal; 0 = none")
+        ->group(kGroup)
+        ->check(CLI::Range(0.0, 10.0))
+        ->capture_default_str();
     parser
         .add_option("--wire-attraction", arguments.wire_attraction,
                     "How much features attract; 0 = shortest paths")

@@ -33,6 +33,7 @@ struct DetectionArguments {
 
     std::string wires_path;   ///< empty = links between loose ends
     std::string wire_length;  ///< empty = the default of WireOptions
+    double wire_snap_percent = 0.5;
     double wire_attraction = 5;
     double wire_anisotropy = 15;
 

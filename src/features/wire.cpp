@@ -29,7 +29,9 @@ std::string shown(const Vec3& p) {
 /// The seeds of a wire as points of the mesh.
 std::vector<WirePoint> place_seeds(const WireRequest& wire, const MeshArrays& arrays,
                                    const IndexRows& faces, const SurfaceQueries& queries,
-                                   const WireSearch& search, double diagonal, double farthest) {
+                                   const WireMetric& metric, const WireSearch& search,
+                                   double diagonal, const WireOptions& options) {
+    const double farthest = options.farthest_seed;
     const bool has_vertices = !wire.vertices.empty();
     const std::size_t count = has_vertices ? wire.vertices.size() : wire.points.size();
     const std::size_t least = wire.is_closed ? 3 : 2;
@@ -57,7 +59,8 @@ std::vector<WirePoint> place_seeds(const WireRequest& wire, const MeshArrays& ar
                                  std::to_string(closest.distance) +
                                  " from the surface, more than " + std::to_string(100 * farthest) +
                                  "% of the diagonal (a seed of another mesh?)");
-            seeds.push_back(search.point_at(closest.surface));
+            seeds.push_back(search.point_at(
+                snapped_seed(arrays, metric, closest.surface, options.snap * diagonal)));
         }
         const auto is_equal = [&](const WirePoint& other) {
             return (seeds.back().position - other.position).norm() <= kEqualSeeds * diagonal;
@@ -125,7 +128,7 @@ FeatureCurveNetwork detect_wires(const LoadedMesh& mesh, const std::vector<WireR
     std::vector<std::vector<WirePoint>> seeds;
     for (const WireRequest& wire : wires)
         seeds.push_back(
-            place_seeds(wire, arrays, faces, queries, search, diagonal, options.farthest_seed));
+            place_seeds(wire, arrays, faces, queries, metric, search, diagonal, options));
     std::vector<FeatureCurveNetwork> links;
     for (std::size_t w = 0; w < wires.size(); ++w) {
         for (std::size_t k = 1; k < seeds[w].size(); ++k) {

@@ -24,6 +24,8 @@ struct WireOptions {
     double max_anisotropy = 15;  ///< how much cheaper a step along a feature can be, >= 1
     /// Seeds farther from the surface than this share of the diagonal are refused.
     double farthest_seed = 0.01;
+    /// Seeds given as points move onto a feature this close, as share of the diagonal; 0 = none.
+    double snap = 0.005;
     int threads = 1;
 };
 

@@ -128,6 +128,27 @@ TEST(Wire, FollowsACrease) {
     EXPECT_GT(distance_in_the_middle(isotropic()), 1.9);
 }
 
+TEST(Wire, SeedsBesideACreaseMakeNoSpurs) {
+    const LoadedMesh mesh = folded_strip(30, 40, 15, [](double) { return 60 * kDegree; });
+    WireOptions options;
+    options.snap = 0.02;
+    const FeatureCurveNetwork network =
+        detect_wires(mesh, {wire({{14.3, 2.2, 0}, {14.7, 20.4, 0}, {14.4, 37.8, 0}})}, options);
+    ASSERT_EQ(network.arcs.size(), 1u);
+    for (const ArcSample& sample : network.arcs[0].samples)
+        EXPECT_NEAR(sample.position.x(), 15, 1e-9);
+    EXPECT_NEAR(network.total_length(), 37.8 - 2.2, 1e-6);
+    // Given as they are, the middle one is visited.
+    options.snap = 0;
+    const FeatureCurveNetwork spurs =
+        detect_wires(mesh, {wire({{14.3, 2.2, 0}, {14.7, 20.4, 0}, {14.4, 37.8, 0}})}, options);
+    double closest = 1e300;
+    for (const NetworkArc& arc : spurs.arcs)
+        for (const ArcSample& sample : arc.samples)
+            closest = std::min(closest, (sample.position - Vec3(14.7, 20.4, 0)).norm());
+    EXPECT_LT(closest, 1e-9);
+}
+
 TEST(Wire, FollowsARoundedRidge) {
     // A ridge that no edge of the mesh follows: across the grid, rounded over several cells.
     const Vec3 along = Vec3(2, 5, 0).normalized(), across(along.y(), -along.x(), 0);
