@@ -20,7 +20,8 @@ class Determinism(ProgramTest):
         return printed, self.files(f"{folder}/out")
 
     def test_threads_change_nothing(self):
-        for method in (["--method", "sharp"], ["--method", "vsa", "--patches", "30"]):
+        for method in (["--method", "sharp"], ["--method", "vsa", "--patches", "30"],
+                       ["--method", "crest"]):
             with self.subTest(method=method):
                 name = method[1]
                 one = self.run_in(f"{name}-1", 1, *method)

@@ -78,6 +78,28 @@ class StepByStep(ProgramTest):
         self.assertLess(lengths["sharp+vsa"], lengths["sharp"] + lengths["vsa"])
         self.assertGreaterEqual(lengths["sharp+vsa"], max(lengths.values()) * (1 - 1e-9))
 
+    def test_crest_lines_reach_the_adaptation(self):
+        self.model("superellipse-torus", "--resolution", "0.03")
+        detected = self.succeed_json("detect", "superellipse-torus.off", "--method", "crest", "-o",
+                                     "net.fcn.json")["network"]
+        self.assertEqual(detected["arcs"], 4)
+        self.assertAlmostEqual(detected["length"], 8 * 3.14159265 * 0.35, delta=0.088)
+        adapted = self.succeed_json("adapt", "superellipse-torus.off", "--method", "crest",
+                                    "--scale", "3%", "-o", "a.fcn.json")
+        self.assertTrue(adapted["conforming"])
+        self.assertEqual(adapted["arcs"], 4)
+
+    def test_crest_files_are_read(self):
+        self.model("box")
+        self.write("ridges.txt", "3 2 1\n.1 .2 .6 0\n.3 .2 .6 0\n.5 .2 .6 0\n2 .9 40\n"
+                                 "0 1 0\n1 2 -1\n")
+        detect = ["detect", "box.off", "--method", "crest", "--import", "ridges.txt",
+                  "--boundary", "ignore", "-o", "net.fcn.json"]
+        self.assertAlmostEqual(self.succeed_json(*detect)["network"]["length"], 0.4)
+        self.assertEqual(
+            self.succeed_json(*detect, "--crest-cyclideness", "41")["network"]["arcs"], 0)
+        self.succeed("convert", "ridges.txt", "net.obj", "--mesh", "box.off")
+
     def test_wires_reach_the_adaptation(self):
         self.model("octaflower", "--resolution", "0.04")
         self.write("seeds.json", '{"wires":[{"vertices":[5,300],"pin":true}]}')
