@@ -103,7 +103,8 @@ private:
     NodeOutcome cut_root() {
         relaxation_.set_drops_tight_rows(true);
         double last = 0;
-        int stalled = 0;
+        int stalled = 0, last_polish = -kPolishGap;
+        bool is_polish_idle = false;        ///< the last one found nothing
         std::vector<double> gomory_bounds;  ///< before each round of Gomory cuts
         for (int round = 0;; ++round) {
             const auto lp = lane_.solve(kNoIterationLimit);
@@ -128,10 +129,16 @@ private:
             const bool is_stalled = round > 0 && last - bound < 0.01 * std::max(1.0, gap);
             stalled = is_stalled ? stalled + 1 : 0;
             last = bound;
-            if (round % 8 == 3 || stalled == 1) lane_.polish();
+            if (round % 8 == 3 || (stalled == 1 && round >= last_polish + kPolishGap)) {
+                const Value before = lane_.best_value;
+                lane_.polish();
+                is_polish_idle = lane_.best_value == before;
+                last_polish = round;
+            }
             collect();
-            search_long(round, gap);
-            intensify();
+            search_wide(round, stalled > 0, gap);
+            // A search pays where the LP's solutions lead nowhere and there is room for a gain.
+            if (is_polish_idle && gap > kClosedGap * bound) intensify();
             if (lane_.is_prunable(root_bound_)) return NodeOutcome::Pruned;
             std::size_t added = rules;
             if (stalled < 3) {
@@ -143,9 +150,19 @@ private:
                 added += add_gomory(gap);
             }
             if (added == 0) return NodeOutcome::Branch;
-            const int age = idle_age(gap);
-            if (round % (age + 1) == age) relaxation_.drop_idle_rows(age);
+            drop_rows(round, gap);
         }
+    }
+
+    /// Slack rows leave at once: they are most rows, and each costs time in every iteration. Tight
+    /// ones without a multiplier go now and then, and only where the LP is tall: sometimes Clp
+    /// rejects the basis that is left and goes on with the primal simplex for long.
+    void drop_rows(int round, double gap) {
+        const int age = idle_age(gap);
+        const bool is_tall =
+            kTall * relaxation_.column_count() < static_cast<double>(relaxation_.row_count());
+        if (is_tall && round % (age + 1) == age) relaxation_.drop_idle_rows(age);
+        relaxation_.drop_slack_rows();
     }
 
     /// Rounds after which an idle row leaves the root's LP: the more rounds are to come, the
@@ -299,16 +316,29 @@ private:
         search(due, 1.5, due / 4);
     }
 
-    /// Where cliques leave a wide gap a proof is far, and what counts is the labeling: one long
-    /// search, because many short ones find less.
-    void search_long(int round, double gap) {
+    /// Where the gap is wide, a short search tells whether that is for want of a labeling. Where
+    /// cliques leave it wide a proof is far, and what counts is the labeling: one long search,
+    /// because many short ones find less.
+    void search_wide(int round, bool is_stalled, double gap) {
         if (!options_.techniques.heuristics || !result_.solution || has_searched_long_) return;
         const std::int64_t left = control_.ticks_left();
+        if (round >= 1 && !has_searched_short_ && is_wide(gap)) {
+            has_searched_short_ = true;
+            const Value before = lane_.best_value;
+            search(std::min(kShortSearch * problem_.label_count(), left / 10), 1.5, 0);
+            gap -= static_cast<double>(lane_.best_value - before);
+        }
         const std::int64_t spent = control_.work() - first_work_;
-        if (round < kLongSearchRound && (round < 2 || spent < left / 3)) return;
+        const bool is_due =
+            round >= kLongSearchRound && (is_stalled || round >= 2 * kLongSearchRound);
+        if (!is_due && (round < 2 || spent < left / 3)) return;
         has_searched_long_ = true;
-        if (gap < kWideGap * std::abs(static_cast<double>(lane_.best_value))) return;
+        if (!is_wide(gap)) return;
         search(std::min(kLongSearch * problem_.label_count(), left / 5 * 2), 3.0, 0);
+    }
+
+    bool is_wide(double gap) const {
+        return gap >= kWideGap * std::abs(static_cast<double>(lane_.best_value));
     }
 
     void search(std::int64_t ticks, double temperature, std::int64_t first_chain) {
@@ -346,11 +376,14 @@ private:
     }
 
     static constexpr Value kHuge = Value{1} << 60;
-    static constexpr std::int64_t kSearchShare = 6;    ///< one part in so many
-    static constexpr std::int64_t kSearchChunk = 500;  ///< ticks per label
-    static constexpr std::int64_t kLongSearch = 8000;  ///< ticks per label
+    static constexpr std::int64_t kSearchShare = 8;                        ///< one part in so many
+    static constexpr std::int64_t kSearchChunk = 500;                      ///< ticks per label
+    static constexpr std::int64_t kLongSearch = 8000, kShortSearch = 800;  ///< ticks per label
     static constexpr int kLongSearchRound = 6;
-    static constexpr double kWideGap = 0.02;  ///< of the best value
+    static constexpr double kWideGap = 0.02;    ///< of the best value
+    static constexpr double kClosedGap = 5e-4;  ///< of the bound
+    static constexpr int kPolishGap = 4;        ///< rounds
+    static constexpr double kTall = 4.0 / 3;    ///< rows per column
     static constexpr std::size_t kManyRules = 20;
     static constexpr std::size_t kMostGomoryRounds = 30, kGomoryPatience = 4;
     static constexpr double kGomoryGain = 0.08;  ///< of the gap, per round
@@ -375,7 +408,7 @@ private:
     std::uint64_t search_count_ = 0;
     const std::int64_t first_work_;
     std::int64_t search_work_ = 0;
-    bool has_searched_long_ = false;
+    bool has_searched_short_ = false, has_searched_long_ = false;
 };
 
 }  // namespace

@@ -63,7 +63,7 @@ void CutLane::accept(Solution solution) {
 
 LpEngine::Outcome CutLane::solve(std::int64_t max_iterations) {
     const auto outcome = relaxation.solve(*control_, max_iterations);
-    statistics.lp_iterations += relaxation.engine().iterations();
+    statistics.lp_iterations += relaxation.iterations();
     return outcome;
 }
 

@@ -21,7 +21,8 @@ public:
         : control_(control),
           rule_(rule),
           heap_(problem.label_count()),
-          graph_(problem.label_count()) {}
+          graph_(problem.label_count()),
+          marks_(problem.label_count(), 0) {}
 
     /// False: a rule is too long, or the run is over.
     bool join(const LabelingProblem& problem, const RowSystem& rows) {
@@ -97,23 +98,23 @@ private:
         if (rule_ == EliminationRule::Degree) return -degree;
         // So many neighbours are not eliminated before others have gone, which counts them again.
         if (neighbours.size() > EliminationOrder::kMostNeighbours) return -degree * degree;
-        double present = 0;
+        ++mark_;
+        for (Label j : neighbours) marks_[j] = mark_;
+        std::int64_t present = 0;
         for (Label j : neighbours) {
             const auto& its = graph_[j];
-            std::size_t k = 0;
-            for (Label other : neighbours) {
-                while (k < its.size() && its[k] < other) ++k;
-                if (k < its.size() && its[k] == other) ++present;
-            }
+            for (Label k : its) present += marks_[k] == mark_ ? 1 : 0;
             work_ += static_cast<std::int64_t>(its.size() + neighbours.size());
         }
-        return present / 2 - degree * (degree - 1) / 2;
+        return static_cast<double>(present) / 2 - degree * (degree - 1) / 2;
     }
 
     RunControl& control_;
     const EliminationRule rule_;
     LabelHeap heap_;
     std::vector<std::vector<Label>> graph_;  ///< of the labels that are left
+    std::vector<std::int64_t> marks_;        ///< mark_ on the neighbours that are looked at
+    std::int64_t mark_ = 0;
     std::int64_t work_ = 0;
 };
 

@@ -1,7 +1,8 @@
 // Which technique for which size. Narrow problems: dynamic programming. A few labels: the
 // depth-first tree at once. Up to some dozens: the tree with a small allowance first, because no LP
 // beats it there. More: local search, then branch-and-cut, which may hand back what is left of the
-// problem after fixing; that comes through here again.
+// problem after fixing; that comes through here again. The search is short where a proof is near:
+// from the LP's solutions, which come soon, branch-and-cut finds better labelings in less time.
 #include "labeling/part_search.h"
 
 #include <algorithm>
@@ -15,6 +16,10 @@ namespace labeling {
 namespace {
 
 constexpr std::int64_t kSmallTreeTicks = 20000;
+/// The search before a proof that is near, in ticks per label.
+constexpr std::int64_t kShortChain = 15, kShortPatience = 10, kShortSearch = 60;
+/// Where labels have so many rules, proofs are far and the search is long.
+constexpr std::int64_t kManyRulesPerLabel = 5;
 constexpr std::int64_t kPatiencePerLabel = 250;
 constexpr std::int64_t kMostSearchTicksPerLabel = 6000;
 /// Where labels have more rules than that, searches take longer and proofs are farther.
@@ -22,8 +27,8 @@ constexpr std::int64_t kRulesPerLabel = 4;
 constexpr std::int64_t kMostPatienceFactor = 3;
 /// Dynamic programming may take so long: branch-and-cut seldom takes less.
 constexpr std::int64_t kWidthTicksPerLabel = 4000;
-/// Beyond this many columns the first LP alone would take minutes.
-constexpr std::size_t kMostColumns = 300000;
+/// Beyond this many columns the first LP alone would take minutes; seconds.
+constexpr std::size_t kMostColumns = 300000, kManyColumns = 30000;
 
 TreeResult by_tree(const LabelingProblem& problem, const std::optional<Solution>& start,
                    RunControl& control, BranchAndCutStatistics* statistics) {
@@ -56,6 +61,17 @@ std::int64_t first_search_patience(const LabelingProblem& problem) {
            std::clamp(rules / kRulesPerLabel, labels, kMostPatienceFactor * labels);
 }
 
+std::size_t column_count(const LabelingProblem& problem) {
+    return static_cast<std::size_t>(problem.label_count()) + problem.bonus_count();
+}
+
+/// Far, too, where no LP or a slow one has to wait for its turn.
+bool is_proof_far(const LabelingProblem& problem, const PartSearchOptions& options) {
+    return !options.lp || column_count(problem) > kManyColumns ||
+           static_cast<std::int64_t>(problem.rule_count()) >=
+               kManyRulesPerLabel * problem.label_count();
+}
+
 /// At most half of what is left, so that the bound gets its turn, and that only while it
 /// gains.
 std::int64_t first_search_ticks(const LabelingProblem& problem, const RunControl& control) {
@@ -81,9 +97,13 @@ PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t
     if (options.report) options.report(start.solution->value, std::nullopt);
     if (problem.label_count() <= options.techniques.tree_size || control.should_stop())
         return start;
-    RunControl::Cap cap(control, first_search_ticks(problem, control));
+    const bool is_far = is_proof_far(problem, options);
+    const auto label_count = static_cast<std::int64_t>(problem.label_count());
+    RunControl::Cap cap(control,
+                        is_far ? first_search_ticks(problem, control) : kShortSearch * label_count);
     LocalSearchOptions search;
-    search.patience = first_search_patience(problem);
+    search.patience = is_far ? first_search_patience(problem) : kShortPatience * label_count;
+    search.first_chain = is_far ? 0 : kShortChain * label_count;
     search.seed = options.seed;
     search.threads = options.threads;
     const std::function<void(Value)> report = [&](Value value) {
@@ -99,10 +119,8 @@ TreeResult prove_part(const LabelingProblem& problem, const std::optional<Soluti
                       BranchAndCutStatistics* statistics) {
     if (control.is_over()) return unproven(problem, start);
     if (auto narrow = by_width(problem, control, options)) return std::move(*narrow);
-    const std::size_t columns =
-        static_cast<std::size_t>(problem.label_count()) + problem.bonus_count();
     const Label tree_size = options.techniques.tree_size;
-    if (!options.lp || problem.label_count() <= tree_size || columns > kMostColumns) {
+    if (!options.lp || problem.label_count() <= tree_size || column_count(problem) > kMostColumns) {
         return by_tree(problem, start, control, statistics);
     }
     std::optional<Solution> best = start;

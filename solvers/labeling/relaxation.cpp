@@ -126,7 +126,11 @@ bool Relaxation::add(Cut cut) {
         --row_hashes_[hash];
         return false;
     }
-    insert({std::move(cut), 0, 0, hash});
+    Row row;
+    row.cut = std::move(cut);
+    row.id = next_id_++;
+    row.hash = hash;
+    insert(std::move(row));
     return true;
 }
 
@@ -139,8 +143,8 @@ void Relaxation::insert(Row row) {
     row.largest = std::max(static_cast<double>(largest),
                            std::abs(static_cast<double>(row.cut.right_hand_side)));
     while (row.scale * 8 < largest) row.scale *= 2;
-    row.id = next_id_++;
     row.idle_age = 0;
+    row.is_slack = false;
     pass_to_engine(row);
     rows_.push_back(std::move(row));
 }
@@ -168,6 +172,7 @@ void Relaxation::unfix(std::int32_t column) {
 LpEngine::Outcome Relaxation::solve(RunControl& control, std::int64_t max_iterations) {
     constexpr std::int64_t kChunk = 1000;
     bound_ = kHugeBound;
+    iterations_ = 0;
     engine_->stop_when([&control] {
         control.check();
         return control.is_over();
@@ -176,6 +181,7 @@ LpEngine::Outcome Relaxation::solve(RunControl& control, std::int64_t max_iterat
         const std::int64_t chunk = std::min(kChunk, max_iterations);
         const auto outcome = engine_->solve(chunk);
         max_iterations -= engine_->iterations();
+        iterations_ += engine_->iterations();
         const std::int64_t size = row_count() + column_count();
         // Measured: starting costs by size, an iteration hardly (large problems are sparser).
         const bool must_stop = control.spend(3 * size + engine_->iterations() * (800 + size / 100));
@@ -264,16 +270,27 @@ void Relaxation::age_rows() {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         const double slack =
             static_cast<double>(rows_[r].cut.right_hand_side) / rows_[r].scale - activities[r];
-        const bool is_idle = drops_tight_rows_ ? std::abs(multipliers[r]) < kIdle : slack > 1e-6;
+        rows_[r].is_slack = slack > 1e-6;
+        const bool is_idle =
+            drops_tight_rows_ ? std::abs(multipliers[r]) < kIdle : rows_[r].is_slack;
         rows_[r].idle_age = is_idle ? rows_[r].idle_age + 1 : 0;
     }
 }
 
 void Relaxation::drop_idle_rows(int age) {
+    put_aside([age](const Row& row) { return row.idle_age >= age; });
+}
+
+void Relaxation::drop_slack_rows() {
+    put_aside([](const Row& row) { return row.is_slack; });
+}
+
+template <typename Unwanted>
+void Relaxation::put_aside(const Unwanted& is_unwanted) {
     std::vector<std::int32_t> dropped;
     std::size_t kept = 0;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-        if (rows_[r].idle_age >= age) {
+        if (is_unwanted(rows_[r])) {
             dropped.push_back(static_cast<std::int32_t>(r));
             aside_.push_back(std::move(rows_[r]));
             continue;
@@ -287,11 +304,18 @@ void Relaxation::drop_idle_rows(int age) {
 
 std::size_t Relaxation::restore_violated_rows(std::int64_t& work) {
     const auto x = engine_->columns();
-    std::size_t kept = 0, restored = 0;
-    for (Row& row : aside_) {
+    return put_back([&](const Row& row) {
         work += static_cast<std::int64_t>(row.cut.entries.size());
         const double excess = row.cut.activity(x) - static_cast<double>(row.cut.right_hand_side);
-        if (excess > 1e-6 * row.scale) {
+        return excess > 1e-6 * row.scale;
+    });
+}
+
+template <typename Wanted>
+std::size_t Relaxation::put_back(const Wanted& is_wanted) {
+    std::size_t kept = 0, restored = 0;
+    for (Row& row : aside_) {
+        if (is_wanted(row)) {
             insert(std::move(row));
             ++restored;
         } else {
@@ -312,18 +336,20 @@ Relaxation::SavedBasis Relaxation::save_basis() const {
             saved.nonbasic_rows.push_back(rows_[r].id);
         }
     }
+    std::sort(saved.nonbasic_rows.begin(), saved.nonbasic_rows.end());
     saved.columns.resize(objective_.size());
     return saved;
 }
 
 void Relaxation::restore_basis(const SavedBasis& saved) {
+    const auto is_nonbasic = [&saved](const Row& row) {
+        return std::binary_search(saved.nonbasic_rows.begin(), saved.nonbasic_rows.end(), row.id);
+    };
+    put_back(is_nonbasic);
     LpEngine::Basis basis = saved.columns;
-    auto next = saved.nonbasic_rows.begin();
     for (const Row& row : rows_) {
-        while (next != saved.nonbasic_rows.end() && *next < row.id) ++next;
-        const bool is_nonbasic = next != saved.nonbasic_rows.end() && *next == row.id;
-        basis.push_back(is_nonbasic ? LpEngine::BasisStatus::AtUpper
-                                    : LpEngine::BasisStatus::Basic);
+        basis.push_back(is_nonbasic(row) ? LpEngine::BasisStatus::AtUpper
+                                         : LpEngine::BasisStatus::Basic);
     }
     engine_->set_basis(basis);
 }

@@ -70,6 +70,7 @@ public:
 
     /// Solves and computes the exact bound; spends work on `control`. Stopped when control says so.
     LpEngine::Outcome solve(RunControl& control, std::int64_t max_iterations);
+    std::int64_t iterations() const { return iterations_; }  ///< of the last solve()
     std::span<const double> x() const { return engine_->columns(); }
     LpEngine& engine() { return *engine_; }
 
@@ -82,6 +83,8 @@ public:
 
     /// Takes rows that were idle in the last `age` solves out of the LP; they are kept aside.
     void drop_idle_rows(int age);
+    /// The same with rows that were slack in the last solve, which is cheaper: the basis stays.
+    void drop_slack_rows();
     /// Idle is a row that is slack, or (on) one without a multiplier. Most tight rows of these LPs
     /// have none: they hold zeros together and only cost time while cuts are added at the root; in
     /// a tree they would be missed at the next node.
@@ -95,6 +98,7 @@ public:
         std::vector<std::uint32_t> nonbasic_rows;  ///< row ids, ascending
     };
     SavedBasis save_basis() const;
+    /// Puts rows back first that were kept aside and were tight there.
     void restore_basis(const SavedBasis& saved);
 
 private:
@@ -102,6 +106,7 @@ private:
         Cut cut;
         std::uint32_t id = 0;
         int idle_age = 0;
+        bool is_slack = false;
         std::uint64_t hash = 0;
         double scale = 1;    ///< the LP holds the row divided by this
         double largest = 1;  ///< largest absolute number in the row
@@ -111,6 +116,10 @@ private:
     void reset_engine();
     void pass_to_engine(const Row& row);
     void insert(Row row);
+    template <typename Wanted>
+    std::size_t put_back(const Wanted& is_wanted);
+    template <typename Unwanted>
+    void put_aside(const Unwanted& is_unwanted);
     void compute_bound();
     bool prove_infeasible();
     void age_rows();
@@ -130,6 +139,7 @@ private:
     Value bound_ = 0;
     double scale_ = 1;
     std::uint32_t next_id_ = 0;
+    std::int64_t iterations_ = 0;
     bool drops_tight_rows_ = false;
 };
 

@@ -66,6 +66,7 @@ public:
                                       return simplex_.getRowStatus(r) != ClpSimplex::basic;
                                   });
         if (is_any_tight) shrink_basis(rows);
+        forget_factorization();
         simplex_.deleteRows(static_cast<int>(rows.size()), rows.data());
     }
 
@@ -87,7 +88,8 @@ public:
         constexpr std::int64_t kMost = 1'000'000'000;
         simplex_.setNumberIterations(0);
         simplex_.setMaximumIterations(static_cast<int>(std::min(max_iterations, kMost)));
-        simplex_.dual(0, 1);
+        constexpr int kKeepWorkAreas = 1, kReuseFactorization = 2;
+        simplex_.dual(0, kKeepWorkAreas | kReuseFactorization);
         iterations_ = simplex_.numberIterations();
         // Status 0 can hide infeasibilities that appear once perturbation is removed.
         if (simplex_.status() == 0 && simplex_.primalFeasible() && simplex_.dualFeasible()) {
@@ -136,6 +138,7 @@ public:
     void set_basis(const Basis& basis) override {
         flush_pending();
         if (simplex_.statusArray() == nullptr) simplex_.createStatus();
+        forget_factorization();
         const int columns = simplex_.numberColumns(), rows = simplex_.numberRows();
         for (int c = 0; c < columns; ++c) simplex_.setColumnStatus(c, translate(basis[c]));
         for (int r = 0; r < rows; ++r) {
@@ -165,9 +168,17 @@ private:
     void prepare() {
         simplex_.setLogLevel(0);
         simplex_.scaling(0);
+        // A basis few pivots old is not factorized anew when it looks optimal, and checks of
+        // optimality are fewer: what is wrong after that shows in the exact bound.
+        constexpr int kRayAlways = 32, kKeepFewPivots = 2048, kFewChecks = 4096;
+        simplex_.setSpecialOptions(simplex_.specialOptions() | kRayAlways | kKeepFewPivots |
+                                   kFewChecks);
         const StopHandler handler(&stop_);
         simplex_.passInEventHandler(&handler);
     }
+
+    /// Clp sees changed bounds itself, but not a changed basis.
+    void forget_factorization() { simplex_.setWhatsChanged(0); }
 
     static BasisStatus translate(ClpSimplex::Status status) {
         switch (status) {
@@ -197,6 +208,7 @@ private:
 
     void flush_pending() {
         if (!pending_upper_.empty()) {
+            forget_factorization();
             simplex_.addRows(static_cast<int>(pending_upper_.size()), pending_lower_.data(),
                              pending_upper_.data(), pending_starts_.data(), pending_columns_.data(),
                              pending_coefficients_.data());

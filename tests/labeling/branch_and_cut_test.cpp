@@ -151,7 +151,7 @@ TEST(BranchAndCutTree, IsReachedByFrustratedProblems) {
     EXPECT_GT(
         total("nodes", {{"clique-cuts", "off"}, {"triple-cuts", "off"}, {"gomory-cuts", "off"}}),
         300);
-    EXPECT_GT(total("gomory-cuts", {{"clique-cuts", "off"}, {"triple-cuts", "off"}}), 200);
+    EXPECT_GT(total("gomory-cuts", {{"clique-cuts", "off"}, {"triple-cuts", "off"}}), 150);
     EXPECT_GT(total("clique-cuts", {}), 50);
     EXPECT_GT(total("triple-cuts", {}), 50);
 }
