@@ -13,7 +13,7 @@
 namespace fcn {
 namespace {
 
-constexpr double kRings[] = {3, 4, 5, 6.5, 8, 10, 13};
+constexpr double kRings[] = {3, 4, 5, 6.5, 8, 10, 13, 16, 20};
 constexpr double kLargestError = 0.12;  // of e, in squared curvatures
 constexpr double kLargestRadius = 1.5;  // in radii of curvature
 constexpr int kSampleCount = 3000;
