@@ -6,12 +6,12 @@
 #include <map>
 #include <random>
 
+#include "features/crest.h"
 #include "features/feature_meshes.h"
 #include "features/features.h"
 #include "geometry/errors.h"
 #include "geometry/models.h"
 #include "geometry/surface_queries.h"
-#include "support/shared_data.h"
 
 namespace fcn {
 namespace {
@@ -147,6 +147,20 @@ TEST(Combine, NothingIsLostBeyondTheTolerance) {
                 all.arcs.insert(all.arcs.end(), input.arcs.begin(), input.arcs.end());
             EXPECT_LE(farthest(result, all), tolerance * (1 + 1e-9)) << name;
         }
+    }
+}
+
+TEST(Combine, CrestLinesAcrossFacesAreMergedToo) {
+    const LoadedMesh mesh = make_model("superellipse-torus");
+    const FeatureCurveNetwork crests = detect_crest(mesh), patches = vsa(mesh, 60);
+    ASSERT_GT(crests.arcs.size(), 0u);
+    const double tolerance = default_combine_tolerance(mesh);
+    for (const auto& inputs : {std::vector{crests, patches}, std::vector{patches, crests}}) {
+        const FeatureCurveNetwork result = combine_networks(inputs, mesh);
+        EXPECT_EQ(problems_of(result, mesh.mesh), "");
+        for (const FeatureCurveNetwork& input : inputs)
+            EXPECT_LE(farthest(input, result), tolerance * (1 + 1e-9));
+        EXPECT_EQ(combine_networks({result, result}, mesh).arcs.size(), result.arcs.size());
     }
 }
 
