@@ -387,7 +387,9 @@ std::vector<VertexFit> LocalFitter::fit_some(const std::vector<int>& vertices,
     const std::vector<Vec3> smooth = smooth_normals(options);
     const VertexFitter fitter(*this, arrays_, smooth, options);
     tbb::enumerable_thread_specific<Workspace> workspaces;
-    tbb::task_arena arena(std::max(1, options.threads));
+    // More threads than there are would make TBB print a warning.
+    tbb::task_arena arena(
+        std::clamp(options.threads, 1, std::max(1, tbb::this_task_arena::max_concurrency())));
     arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices.size(), 256),
                           [&](const tbb::blocked_range<std::size_t>& range) {
