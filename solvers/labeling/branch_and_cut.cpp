@@ -316,21 +316,21 @@ private:
         search(due, 1.5, due / 4);
     }
 
-    /// Where the gap is wide, a short search tells whether that is for want of a labeling. Where
-    /// cliques leave it wide a proof is far, and what counts is the labeling: one long search,
-    /// because many short ones find less.
+    /// Where the gap is wide, a short search tells whether that is for want of a labeling (of large
+    /// problems it would have to be long). Where cliques leave it wide a proof is far, and what
+    /// counts is the labeling: one long search, because many short ones find less.
     void search_wide(int round, bool is_stalled, double gap) {
         if (!options_.techniques.heuristics || !result_.solution || has_searched_long_) return;
         const std::int64_t left = control_.ticks_left();
-        if (round >= 1 && !has_searched_short_ && is_wide(gap)) {
+        if (round >= 1 && !has_searched_short_ && !is_large() && is_wide(gap)) {
             has_searched_short_ = true;
             const Value before = lane_.best_value;
             search(std::min(kShortSearch * problem_.label_count(), left / 10), 1.5, 0);
             gap -= static_cast<double>(lane_.best_value - before);
         }
         const std::int64_t spent = control_.work() - first_work_;
-        const bool is_due =
-            round >= kLongSearchRound && (is_stalled || round >= 2 * kLongSearchRound);
+        const bool is_due = round >= kLongSearchRound &&
+                            (is_stalled || is_large() || round >= 2 * kLongSearchRound);
         if (!is_due && (round < 2 || spent < left / 3)) return;
         has_searched_long_ = true;
         if (!is_wide(gap)) return;
