@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -18,6 +19,7 @@
 #include "app/inputs.h"
 #include "app/length.h"
 #include "features/combine.h"
+#include "features/symmetry.h"
 #include "features/wire.h"
 #include "geometry/errors.h"
 
@@ -173,6 +175,27 @@ Detection detect_features(const LoadedMesh& mesh, const DetectionArguments& argu
     return detection;
 }
 
+/// Fills the orbits of the network and says what was found.
+void add_symmetries(Detection& detection, const LoadedMesh& mesh,
+                    const DetectionArguments& arguments, double diagonal, int threads) {
+    SymmetryOptions options;
+    if (!arguments.symmetry_distance.empty())
+        options.tolerance =
+            parse_length(arguments.symmetry_distance, "--symmetry-distance").resolve(diagonal);
+    options.min_coverage = arguments.symmetry_coverage;
+    options.threads = threads;
+    std::array<int, 3> counts{};
+    for (const SurfaceSymmetry& symmetry : add_symmetry_orbits(detection.network, mesh, options))
+        ++counts[static_cast<std::size_t>(symmetry.kind)];
+    std::size_t members = 0;
+    for (const SymmetryOrbit& orbit : detection.network.orbits) members += orbit.members.size();
+    detection.messages.push_back(fmt::format(
+        "symmetries of the surface: {} reflections, {} rotations, {} translations; {} of {} arcs "
+        "are in {} orbits",
+        counts[0], counts[1], counts[2], members, detection.network.arcs.size(),
+        detection.network.orbits.size()));
+}
+
 BoundaryPolicy boundary_policy(const std::string& name) {
     if (name == "adapt") return BoundaryPolicy::Adapt;
     if (name == "ignore") return BoundaryPolicy::Ignore;
@@ -208,6 +231,25 @@ void add_sharp_arguments(CLI::App& parser, DetectionArguments& arguments) {
         .add_option("--min-length", arguments.min_length,
                     "Drop connected chains shorter than this length")
         ->group(kGroup);
+}
+
+void add_symmetry_arguments(CLI::App& parser, DetectionArguments& arguments) {
+    constexpr const char* kGroup = "Symmetry";
+    parser
+        .add_flag("--symmetry", arguments.is_symmetric,
+                  "Look for reflections, rotations and translations of the surface: arcs that they "
+                  "exchange stay or go together")
+        ->group(kGroup);
+    parser
+        .add_option("--symmetry-distance", arguments.symmetry_distance,
+                    "How far images may be off the surface (default: 0.5% of the diagonal)")
+        ->group(kGroup);
+    parser
+        .add_option("--symmetry-coverage", arguments.symmetry_coverage,
+                    "Share of the surface that must land on the surface")
+        ->group(kGroup)
+        ->check(CLI::Range(0.05, 1.0))
+        ->capture_default_str();
 }
 
 void add_vsa_arguments(CLI::App& parser, DetectionArguments& arguments) {
@@ -293,6 +335,7 @@ void add_detection_arguments(CLI::App& parser, DetectionArguments& arguments) {
     add_vsa_arguments(parser, arguments);
     add_crest_arguments(parser, arguments.crest);
     add_wire_arguments(parser, arguments);
+    add_symmetry_arguments(parser, arguments);
     constexpr const char* kGroup = "Mesh boundaries and borders between face labels";
     parser
         .add_option("--boundary", arguments.boundary,
@@ -321,6 +364,7 @@ Detection detect_network(const LoadedMesh& mesh, const DetectionArguments& argum
         find_curves(detection.network);  // numbers for --keep curve:N
     const auto& notes = detection.network.notes;
     detection.messages.insert(detection.messages.end(), notes.begin(), notes.end());
+    if (arguments.is_symmetric) add_symmetries(detection, mesh, arguments, diagonal, threads);
     if (detection.network.arcs.empty())
         detection.messages.push_back(
             fmt::format("no feature curve found by method {}: the mesh will be remeshed freely "

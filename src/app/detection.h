@@ -37,6 +37,10 @@ struct DetectionArguments {
     double wire_attraction = 5;
     double wire_anisotropy = 15;
 
+    bool is_symmetric = false;      ///< look for symmetries and orbits
+    std::string symmetry_distance;  ///< empty = the default of SymmetryOptions
+    double symmetry_coverage = 0.6;
+
     std::string boundary = "keep";
     double corner_angle_degrees = 45;
 };

@@ -148,8 +148,23 @@ private:
             "Initial network.",
             {{palette.initial, "feature"}, {palette.pinned, "pinned (boundary, label border)"}},
             "single");
+        if (!record.initial.orbits.empty()) write_orbits(record, pictures);
         for (std::size_t s = 0; s < record.scales.size(); ++s) write_scale(index, s, pictures);
         html_.close();
+    }
+
+    void write_orbits(const MeshRecord& record, const ReportPictures& pictures) {
+        std::size_t members = 0;
+        for (const SymmetryOrbit& orbit : record.initial.orbits) members += orbit.members.size();
+        write_figure(
+            pictures.orbits(),
+            "Shaded view of " + record.mesh.name + " with the " +
+                plural(record.initial.orbits.size(), "orbit", "orbits") +
+                " of arcs that symmetries exchange, in colours; other arcs are grey.",
+            plural(members, "arc", "arcs") + " in " +
+                plural(record.initial.orbits.size(), "symmetry orbit", "symmetry orbits") +
+                ": arcs of one orbit have one colour (colours repeat) and share their labels.",
+            {{ReportPalette().single, "no symmetric partner"}}, "single");
     }
 
     void write_scale(std::size_t mesh, std::size_t index, const ReportPictures& pictures) {

@@ -111,6 +111,21 @@ std::string ReportPictures::initial() const {
     return render_png(record_.mesh.mesh, arc_layers(record_.initial, kMedium), options());
 }
 
+std::string ReportPictures::orbits() const {
+    const ReportPalette palette;
+    const FeatureCurveNetwork& network = record_.initial;
+    std::vector<PictureLayer> layers{{{}, palette.single, kThin}};
+    for (const Color& color : palette.orbits) layers.push_back({{}, color, kThick});
+    std::vector<std::size_t> layer_of_arc(network.arcs.size(), 0);
+    for (std::size_t o = 0; o < network.orbits.size(); ++o) {
+        for (const OrbitMember& member : network.orbits[o].members)
+            layer_of_arc[static_cast<std::size_t>(member.arc)] = 1 + o % palette.orbits.size();
+    }
+    for (std::size_t a = 0; a < network.arcs.size(); ++a)
+        layers[layer_of_arc[a]].polylines.push_back(polyline_of(network.arcs[a]));
+    return render_png(record_.mesh.mesh, layers, options());
+}
+
 std::string ReportPictures::fate(const ScaleRecord& scale) const {
     std::vector<PictureLayer> layers = arc_layers(record_.initial, kThin);
     layers.insert(layers.begin() + 1, dropped_layer(scale.adaptation.network));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "geometry/surface_queries.h"
@@ -15,6 +16,10 @@ struct ReportPalette {
     Color kept{176, 24, 44};
     Color dropped{232, 128, 8};
     Color pinned{22, 130, 72};
+    Color single{150, 156, 164};  ///< arcs without symmetric partners
+    std::array<Color, 8> orbits{Color{176, 24, 44},  Color{38, 70, 122},  Color{232, 128, 8},
+                                Color{22, 130, 72},  Color{128, 62, 150}, Color{0, 140, 160},
+                                Color{150, 100, 40}, Color{214, 60, 140}};
 };
 
 std::string css_color(const Color& color);
@@ -26,6 +31,9 @@ public:
 
     /// The mesh with its initial network; pinned arcs in their own colour.
     std::string initial() const;
+    /// The arcs of the initial network's symmetry orbits, a colour of the palette each in turn; the
+    /// other arcs grey.
+    std::string orbits() const;
     /// The initial network with what was dropped at this scale in another colour.
     std::string fate(const ScaleRecord& scale) const;
     /// The adapted network: segments as the straight pieces they are, laid onto the surface.
