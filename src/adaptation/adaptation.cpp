@@ -15,6 +15,7 @@
 #include <optional>
 #include <set>
 
+#include "adaptation/blockers.h"
 #include "adaptation/collapse.h"
 #include "adaptation/conflicts.h"
 #include "adaptation/explanation.h"
@@ -191,7 +192,7 @@ private:
         const auto attributes = timed(iteration, "weights", [&] { return attributes_of(graph); });
         LabelingBridge bridge = make_bridge(graph, conflicts, attributes);
         const auto kept =
-            timed(iteration, "solve", [&] { return label(iteration, graph, bridge); });
+            timed(iteration, "solve", [&] { return label(iteration, graph, conflicts, bridge); });
         if (!kept) {
             report_.status = options_.stop.stop_requested() ? AdaptationStatus::Interrupted
                                                             : AdaptationStatus::SolverFailed;
@@ -267,7 +268,7 @@ private:
             const std::vector<int> arcs =
                 find_collapsible_clusters(network(), graph, conflicts.conflicts, scale_);
             if (arcs.empty()) return;
-            for (int a : arcs) record_short(a, 0, -1, {});
+            for (int a : arcs) record_short(a, 0, {});
             iteration.collapsed += collapse_short_arcs(network(), arcs, scale_, queries_);
             network().merge_regular_nodes([](int) { return true; });
             resample(iteration.iteration);
@@ -276,15 +277,13 @@ private:
         }
     }
 
-    void record_short(int a, int iteration, int label, std::vector<int> blockers) {
+    /// `piece` holds what is known of its label.
+    void record_short(int a, int iteration, DroppedPiece piece) {
         const WorkingArc& arc = network().arcs[a];
-        DroppedPiece piece;
         piece.polyline = arc.points;
         piece.origin_arc = majority_origin(arc, 0, static_cast<int>(arc.points.size()) - 1);
         piece.iteration = iteration;
-        piece.label = label;
         piece.reason = "short arc";
-        piece.blockers = std::move(blockers);
         dropped_.push_back(std::move(piece));
     }
 
@@ -396,6 +395,7 @@ private:
 
     /// Solves, forbids crumbs and solves again; nullopt without a solution.
     std::optional<std::vector<bool>> label(IterationReport& iteration, const NetworkGraph& graph,
+                                           const ConflictResult& conflicts,
                                            LabelingBridge& bridge) {
         crumb_segments_.clear();
         std::vector<std::int8_t> warm_start;
@@ -417,7 +417,7 @@ private:
             }
             if (crumbs.empty()) {
                 record_solve(iteration, result, bridge);
-                record_dropped(iteration, graph, bridge, kept);
+                record_dropped(iteration, graph, conflicts, bridge, kept);
                 return kept;
             }
             for (const Crumb& crumb : crumbs) {
@@ -457,7 +457,13 @@ private:
     }
 
     void record_dropped(IterationReport& iteration, const NetworkGraph& graph,
-                        const LabelingBridge& bridge, const std::vector<bool>& kept) {
+                        const ConflictResult& conflicts, const LabelingBridge& bridge,
+                        const std::vector<bool>& kept) {
+        const auto origin_of = [&](int segment) {
+            const SegmentSource& source = graph.sources[segment];
+            return majority_origin(network().arcs[source.arc], source.first_sample,
+                                   source.last_sample);
+        };
         for (std::size_t s = 0; s < kept.size(); ++s) {
             if (kept[s]) {
                 ++iteration.kept;
@@ -467,25 +473,28 @@ private:
             const SegmentSource& source = graph.sources[s];
             const WorkingArc& arc = network().arcs[source.arc];
             const int label = bridge.label_of_segment(static_cast<int>(s));
-            std::vector<int> blockers = find_blockers(problem_, solution_, label);
+            const std::vector<int> labels = find_blockers(problem_, solution_, label);
+            DroppedPiece why;
+            why.label = label;
+            why.weight = weights_[s];
+            why.blockers = describe_blockers(labels, static_cast<int>(s), bridge, conflicts,
+                                             problem_, origin_of);
+            const auto margin = swap_margin(problem_, solution_, label, labels);
+            if (margin) why.margin = static_cast<double>(*margin) / problem_.units_per_one();
             if (arc.is_short) {
-                record_short(source.arc, iteration.iteration, label, std::move(blockers));
-                dropped_.back().weight = weights_[s];
+                record_short(source.arc, iteration.iteration, std::move(why));
                 continue;
             }
-            DroppedPiece piece;
+            DroppedPiece piece = std::move(why);
             piece.polyline.assign(arc.points.begin() + source.first_sample,
                                   arc.points.begin() + source.last_sample + 1);
             piece.origin_arc = majority_origin(arc, source.first_sample, source.last_sample);
             piece.iteration = iteration.iteration;
-            piece.label = label;
             const bool has_conflict = std::ranges::any_of(
                 problem_.conflicts_of(label), [&](int l) { return solution_.labels[l] == 1; });
             piece.reason = has_conflict                                    ? "conflict"
                            : crumb_segments_.contains(static_cast<int>(s)) ? "crumb"
                                                                            : "rule";
-            piece.blockers = std::move(blockers);
-            piece.weight = weights_[s];
             dropped_.push_back(std::move(piece));
         }
     }
@@ -531,7 +540,7 @@ private:
         for (int a = 0; a < static_cast<int>(network().arcs.size()); ++a) {
             WorkingArc& arc = network().arcs[a];
             if (!arc.is_alive || !arc.is_short || arc.is_pinned) continue;
-            record_short(a, iteration.iteration, -1, {});
+            record_short(a, iteration.iteration, {});
             arc = WorkingArc{};
             arc.is_alive = false;
             has_dropped = true;
@@ -689,6 +698,8 @@ private:
         result.network.ratio = scale_.ratio();
         forget_returned_pieces();
         result.network.dropped = std::move(dropped_);
+        for (const NetworkArc& arc : initial_.arcs)
+            result.network.origin_curves.push_back(arc.curve);
         for (const std::string& warning : report_.warnings) {
             result.network.notes.push_back(warning);
         }

@@ -379,6 +379,20 @@ SegmentDistance segment_distance(const Vec3& a0, const Vec3& a1, const Vec3& b0,
     return best;
 }
 
+const char* to_string(ConflictKind kind) {
+    switch (kind) {
+        case ConflictKind::Angle:
+            return "angle";
+        case ConflictKind::Distance:
+            return "distance";
+        case ConflictKind::Crossing:
+            return "crossing";
+        case ConflictKind::Nodes:
+            return "nodes";
+    }
+    return "";
+}
+
 ConflictResult detect_conflicts(const SegmentGraph& graph, const ScaleInterval& scale,
                                 const ConflictOptions& options) {
     ConflictResult result;

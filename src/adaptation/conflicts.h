@@ -16,6 +16,9 @@ enum class ConflictKind {
     Nodes      ///< best mode: two distinct nodes closer than rmin
 };
 
+/// "angle", "distance", "crossing", "nodes".
+const char* to_string(ConflictKind kind);
+
 /// Two segments of which at most one can be kept; first < second.
 struct Conflict {
     ConflictKind kind = ConflictKind::Angle;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "labeling/problem.h"
@@ -12,5 +13,11 @@ namespace fcn {
 /// the objective of an optimal solution.
 std::vector<int> find_blockers(const labeling::LabelingProblem& problem,
                                const labeling::Solution& solution, int label);
+
+/// By how much the objective falls with `label` in and `blockers` out, in the problem's units;
+/// nothing where the labels then break a conflict or a rule.
+std::optional<labeling::Value> swap_margin(const labeling::LabelingProblem& problem,
+                                           const labeling::Solution& solution, int label,
+                                           const std::vector<int>& blockers);
 
 }  // namespace fcn

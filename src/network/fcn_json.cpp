@@ -130,7 +130,15 @@ void write_element(JsonText& out, const DroppedPiece& piece) {
     out << "{\"origin_arc\":" << piece.origin_arc << ",\"iteration\":" << piece.iteration
         << ",\"label\":" << piece.label << ",\"reason\":";
     out.string(piece.reason) << ",\"blockers\":";
-    out.list(piece.blockers) << ",\"weight\":" << piece.weight << ",\"polyline\":";
+    out.list(piece.blockers, ",",
+             [&](const Blocker& blocker) {
+                 out << "{\"label\":" << blocker.label << ",\"origin_arc\":" << blocker.origin_arc
+                     << ",\"weight\":" << blocker.weight << ",\"conflict\":";
+                 out.string(blocker.conflict) << ",\"measured\":" << blocker.measured << "}";
+             })
+        << ",\"weight\":" << piece.weight;
+    if (piece.margin) out << ",\"margin\":" << *piece.margin;
+    out << ",\"polyline\":";
     out.list(piece.polyline) << "}";
 }
 
@@ -252,17 +260,29 @@ SymmetryOrbit read_orbit(const JsonCursor& at) {
     return {read_list(at.at("members"), read_member)};
 }
 
+Blocker read_blocker(const JsonCursor& at) {
+    at.expect_object({"label", "origin_arc", "weight", "conflict", "measured"});
+    Blocker blocker;
+    blocker.label = at.at("label").integer(-1);
+    if (at.has("origin_arc")) blocker.origin_arc = at.at("origin_arc").integer(-1);
+    if (at.has("weight")) blocker.weight = at.at("weight").number();
+    if (at.has("conflict")) blocker.conflict = at.at("conflict").string();
+    if (at.has("measured")) blocker.measured = at.at("measured").number();
+    return blocker;
+}
+
 DroppedPiece read_dropped(const JsonCursor& at) {
     at.expect_object(
-        {"origin_arc", "iteration", "label", "reason", "blockers", "weight", "polyline"});
+        {"origin_arc", "iteration", "label", "reason", "blockers", "weight", "margin", "polyline"});
     DroppedPiece piece;
     piece.polyline = read_list(at.at("polyline"), read_vector);
     if (at.has("origin_arc")) piece.origin_arc = at.at("origin_arc").integer(-1);
     if (at.has("iteration")) piece.iteration = at.at("iteration").integer(0);
     if (at.has("label")) piece.label = at.at("label").integer(-1);
     if (at.has("reason")) piece.reason = at.at("reason").string();
-    if (at.has("blockers")) piece.blockers = read_list(at.at("blockers"), read_integer);
+    if (at.has("blockers")) piece.blockers = read_list(at.at("blockers"), read_blocker);
     if (at.has("weight")) piece.weight = at.at("weight").number();
+    if (at.has("margin")) piece.margin = at.at("margin").number();
     return piece;
 }
 
@@ -278,7 +298,7 @@ std::uint64_t read_hash(const JsonCursor& at) {
 void check_version(const JsonCursor& at) {
     at.expect_object({"format", "version", "mesh_name", "mesh_hash", "units", "diagonal", "scale",
                       "ratio", "nodes", "arcs", "segments", "curves", "orbits", "dropped",
-                      "notes"});
+                      "origin_curves", "notes"});
     if (at.at("format").string() != kFormat)
         at.at("format").fail(std::string("\"") + kFormat + "\"");
     if (at.at("version").integer() != kVersion)
@@ -300,6 +320,8 @@ FeatureCurveNetwork read_document(const JsonCursor& at) {
     if (at.has("curves")) network.curves = read_list(at.at("curves"), read_curve);
     if (at.has("orbits")) network.orbits = read_list(at.at("orbits"), read_orbit);
     if (at.has("dropped")) network.dropped = read_list(at.at("dropped"), read_dropped);
+    if (at.has("origin_curves"))
+        network.origin_curves = read_list(at.at("origin_curves"), read_integer);
     if (at.has("notes")) network.notes = read_list(at.at("notes"), read_string);
     return network;
 }
@@ -321,6 +343,10 @@ std::string network_to_json(const FeatureCurveNetwork& network) {
     write_list(out, "curves", network.curves);
     write_list(out, "orbits", network.orbits);
     write_list(out, "dropped", network.dropped);
+    if (!network.origin_curves.empty()) {
+        out << ",\n\"origin_curves\": ";
+        out.list(network.origin_curves);
+    }
     write_list(out, "notes", network.notes);
     out << "\n}\n";
     return out.take();

@@ -1,8 +1,9 @@
 // VTK .vtp (XML PolyData, text): one polyline cell per segment, or per arc of a network without
 // segments, and one per dropped piece. Cell data: arc (from 0; of a dropped piece its arc in the
 // initial network), weight, state (1 kept, 0 dropped), reason (a string; in VTK's text form a
-// list of character codes, each string ended by 0). Read: the same arrays as far as they are
-// there; a file without "arc" has its edges chained.
+// list of character codes, each string ended by 0), margin (of a dropped piece, -1 without one),
+// and of the heaviest of its blockers blocker_arc, blocker_weight and blocker_conflict. Read: the
+// first four as far as they are there; a file without "arc" has its edges chained.
 
 #include <algorithm>
 #include <charconv>
@@ -243,7 +244,14 @@ struct Cell {
     double weight = 0;
     int state = 1;
     std::string reason;
+    const DroppedPiece* dropped = nullptr;
 };
+
+/// The blocker that weighs most; the first of equals.
+const Blocker* main_blocker(const Cell& cell) {
+    if (cell.dropped == nullptr || cell.dropped->blockers.empty()) return nullptr;
+    return &*std::ranges::max_element(cell.dropped->blockers, {}, &Blocker::weight);
+}
 
 std::vector<Cell> cells_to_write(const WrittenNetwork& network) {
     std::vector<Cell> cells;
@@ -251,13 +259,14 @@ std::vector<Cell> cells_to_write(const WrittenNetwork& network) {
         const WrittenNetwork::Arc& arc = network.arcs[a];
         for (std::size_t k = 0; k < arc.weights.size(); ++k) {
             if (k == 0 || arc.segments[k] != arc.segments[k - 1])
-                cells.push_back({{arc.points[k]}, static_cast<int>(a), arc.weights[k], 1, ""});
+                cells.push_back(
+                    {{arc.points[k]}, static_cast<int>(a), arc.weights[k], 1, "", nullptr});
             cells.back().points.push_back(arc.points[k + 1]);
         }
     }
     int point = static_cast<int>(network.points.size());
     for (const DroppedPiece& piece : network.dropped) {
-        Cell cell{{}, piece.origin_arc, piece.weight, 0, piece.reason};
+        Cell cell{{}, piece.origin_arc, piece.weight, 0, piece.reason, &piece};
         for (std::size_t k = 0; k < piece.polyline.size(); ++k) cell.points.push_back(point++);
         cells.push_back(std::move(cell));
     }
@@ -272,6 +281,18 @@ void write_array(TextWriter& out, std::string_view type, std::string_view name,
     out << "</DataArray>\n";
 }
 
+template <typename Text>
+void write_strings(TextWriter& out, std::string_view name, const std::vector<Cell>& cells,
+                   const Text& text_of) {
+    write_array(out, "String", name, [&] {
+        for (const Cell& cell : cells) {
+            for (const char c : text_of(cell))
+                out << static_cast<int>(static_cast<unsigned char>(c)) << ' ';
+            out << "0\n";
+        }
+    });
+}
+
 void write_cell_data(TextWriter& out, const std::vector<Cell>& cells) {
     out << "<CellData Scalars=\"state\">\n";
     write_array(out, "Int32", "arc", [&] {
@@ -283,12 +304,21 @@ void write_cell_data(TextWriter& out, const std::vector<Cell>& cells) {
     write_array(out, "Int32", "state", [&] {
         for (const Cell& cell : cells) out << cell.state << '\n';
     });
-    write_array(out, "String", "reason", [&] {
-        for (const Cell& cell : cells) {
-            for (char c : cell.reason)
-                out << static_cast<int>(static_cast<unsigned char>(c)) << ' ';
-            out << "0\n";
-        }
+    write_strings(out, "reason", cells, [](const Cell& cell) { return cell.reason; });
+    write_array(out, "Float64", "margin", [&] {
+        for (const Cell& cell : cells)
+            out << (cell.dropped && cell.dropped->margin ? *cell.dropped->margin : -1.0) << '\n';
+    });
+    write_array(out, "Int32", "blocker_arc", [&] {
+        for (const Cell& cell : cells)
+            out << (main_blocker(cell) ? main_blocker(cell)->origin_arc : -1) << '\n';
+    });
+    write_array(out, "Float64", "blocker_weight", [&] {
+        for (const Cell& cell : cells)
+            out << (main_blocker(cell) ? main_blocker(cell)->weight : 0.0) << '\n';
+    });
+    write_strings(out, "blocker_conflict", cells, [](const Cell& cell) {
+        return main_blocker(cell) ? main_blocker(cell)->conflict : std::string();
     });
     out << "</CellData>\n";
 }

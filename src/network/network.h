@@ -77,6 +77,17 @@ struct SymmetryOrbit {
     std::vector<OrbitMember> members;  ///< the first is the representative (identity)
 };
 
+/// A label that was kept against a dropped piece.
+struct Blocker {
+    int label = -1;        ///< of the problem of DroppedPiece::iteration, 0-based
+    int origin_arc = -1;   ///< arc of the initial network; -1: the label of a node
+    double weight = 0;     ///< of the label, real units
+    std::string conflict;  ///< "angle", "distance", "crossing", "nodes", or "rule"
+    /// Angle in radians, or distance in mesh units, between the two; 0 for a rule.
+    double measured = 0;
+    bool operator==(const Blocker&) const = default;
+};
+
 /// A piece of the initial network that adaptation did not keep.
 struct DroppedPiece {
     std::vector<Vec3> polyline;
@@ -85,8 +96,11 @@ struct DroppedPiece {
     int label = -1;       ///< label in that iteration's problem, 0-based; -1 none
     std::string reason;   ///< "conflict", "rule", "short arc", "closed arc without three segments",
                           ///< "pinned out", "crumb"
-    std::vector<int> blockers;  ///< labels of that iteration's problem that were kept against it
-    double weight = 0;          ///< w(e), real units
+    std::vector<Blocker> blockers;  ///< ascending labels
+    double weight = 0;              ///< w(e), real units
+    /// What the objective would lose, in real units, with this label in and its blockers out (with
+    /// their bonuses); none where that breaks a rule, or where there was no label.
+    std::optional<double> margin;
 };
 
 /// Feature curve network on a mesh (Gehre, Lim, Kobbelt 2016, Definition 1). An initial network
@@ -104,6 +118,8 @@ struct FeatureCurveNetwork {
     std::vector<NetworkCurve> curves;
     std::vector<SymmetryOrbit> orbits;
     std::vector<DroppedPiece> dropped;
+    /// Of an adapted network: the supporting curve of each arc of the initial one.
+    std::vector<int> origin_curves;
     std::vector<std::string> notes;  ///< what a user must know: short boundary loops, ...
 
     bool is_adapted() const { return !segments.empty() || scale > 0; }

@@ -324,6 +324,12 @@ private:
             if (piece.origin_arc < -1) report(where, "/origin_arc: ", piece.origin_arc);
             if (piece.iteration < 0) report(where, "/iteration: ", piece.iteration);
             if (piece.label < -1) report(where, "/label: ", piece.label);
+            if (piece.margin && !std::isfinite(*piece.margin)) report(where, "/margin: not finite");
+            for (std::size_t b = 0; b < piece.blockers.size(); ++b) {
+                const Blocker& blocker = piece.blockers[b];
+                if (!std::isfinite(blocker.weight) || !std::isfinite(blocker.measured))
+                    report(where, "/blockers/", b, ": not finite");
+            }
         }
     }
 

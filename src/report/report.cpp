@@ -250,8 +250,8 @@ private:
         write_table(html_, heaviest_drops_table(network, kDropsShown));
         html_.element("p",
                       "Labels are numbered from 1 as in the saved problem of that iteration. "
-                      "Putting a dropped label in and taking its blockers out is infeasible or "
-                      "does not raise the objective.",
+                      "The margin is what the objective would lose with the label in and its "
+                      "blockers out; without one that is infeasible.",
                       {{"class", "facts"}});
         html_.close();
     }

@@ -36,11 +36,20 @@ double length_of(const std::vector<Vec3>& polyline) {
     return length;
 }
 
+/// "12 (distance, arc 47)"
+std::string blocker_text(const Blocker& blocker) {
+    std::string text = std::to_string(blocker.label + 1);
+    if (blocker.conflict.empty()) return text;
+    text += " (" + blocker.conflict;
+    if (blocker.origin_arc >= 0) text += ", arc " + std::to_string(blocker.origin_arc);
+    return text + ")";
+}
+
 std::string blockers_text(const DroppedPiece& piece) {
     if (piece.blockers.empty()) return format_number(kUnknown, 0);
     std::string text;
     for (std::size_t i = 0; i < std::min(kBlockersShown, piece.blockers.size()); ++i)
-        text += (i > 0 ? ", " : "") + std::to_string(piece.blockers[i] + 1);
+        text += (i > 0 ? ", " : "") + blocker_text(piece.blockers[i]);
     const std::size_t rest =
         piece.blockers.size() - std::min(kBlockersShown, piece.blockers.size());
     return rest > 0 ? text + " and " + count_text(rest) + " more" : text;
@@ -169,14 +178,16 @@ HtmlTable heaviest_drops_table(const FeatureCurveNetwork& network, std::size_t c
     order.resize(std::min(count, order.size()));
     HtmlTable table;
     table.caption = "The heaviest dropped pieces and the labels kept against them";
-    table.header = {"Reason", "Initial arc", "Weight", "Length", "Iteration", "Label", "Blockers"};
+    table.header = {"Reason",    "Initial arc", "Weight", "Length",
+                    "Iteration", "Label",       "Margin", "Blockers"};
     for (const std::size_t i : order) {
         const DroppedPiece& piece = network.dropped[i];
         table.rows.push_back(
             {piece.reason, piece.origin_arc < 0 ? "\u2013" : std::to_string(piece.origin_arc),
              format_number(piece.weight, 3), format_significant(length_of(piece.polyline)),
              std::to_string(piece.iteration),
-             piece.label < 0 ? "\u2013" : std::to_string(piece.label + 1), blockers_text(piece)});
+             piece.label < 0 ? "\u2013" : std::to_string(piece.label + 1),
+             piece.margin ? format_number(*piece.margin, 3) : "\u2013", blockers_text(piece)});
     }
     return table;
 }

@@ -84,13 +84,22 @@ void expect_blockers_hold(const AdaptationResult& result) {
         const labeling::Value before = changed.value;
         ASSERT_EQ(changed.labels[piece.label], 0);
         changed.labels[piece.label] = 1;
-        for (int blocker : piece.blockers) {
-            EXPECT_EQ(changed.labels[blocker], 1) << "a blocker that was not kept";
-            changed.labels[blocker] = 0;
+        for (const Blocker& blocker : piece.blockers) {
+            EXPECT_EQ(changed.labels[blocker.label], 1) << "a blocker that was not kept";
+            changed.labels[blocker.label] = 0;
+            const double units = problem.units_per_one();
+            EXPECT_NEAR(blocker.weight * units, static_cast<double>(problem.weight(blocker.label)),
+                        1e-3);
+            EXPECT_EQ(blocker.conflict == "rule", !problem.in_conflict(piece.label, blocker.label));
         }
         const labeling::SolutionCheck check = check_solution(problem, changed);
         EXPECT_TRUE(!check.is_feasible || check.value <= before)
             << "piece of arc " << piece.origin_arc << " could have been kept";
+        ASSERT_EQ(piece.margin.has_value(), check.is_feasible);
+        if (check.is_feasible) {
+            EXPECT_NEAR(*piece.margin * problem.units_per_one(),
+                        static_cast<double>(before - check.value), 1e-3);
+        }
     }
 }
 

@@ -147,6 +147,53 @@ class StepByStep(ProgramTest):
                                          "--mesh", "box.off")
                 self.assertEqual(back["arcs"], 12)
 
+    def test_explain_accounts_for_every_arc(self):
+        self.model("ribs", "--resolution", "0.05", "--spacing", "0.04")
+        self.succeed("detect", "ribs.off", "--method", "sharp", "--boundary", "ignore", "-o",
+                     "initial.fcn.json")
+        self.succeed("adapt", "ribs.off", "--network", "initial.fcn.json", "--scale", "5%", "-o",
+                     "adapted.fcn.json")
+        with open(self.folder / "initial.fcn.json", encoding="utf-8") as file:
+            initial = json.load(file)
+        everything = self.succeed_json("explain", "adapted.fcn.json")
+        self.assertEqual(everything["arcs"], list(range(len(initial["arcs"]))))
+        self.assertGreater(len(everything["dropped"]), 0)
+        conflicts = {b["conflict"] for p in everything["dropped"] for b in p["blockers"]}
+        self.assertLessEqual(conflicts, {"angle", "distance", "nodes", "rule"})
+        for piece in everything["dropped"]:
+            if piece["margin"] is not None:
+                self.assertGreaterEqual(piece["margin"], 0, "the labeling was optimal")
+        by_curve = [self.succeed_json("explain", "adapted.fcn.json", "--curve", str(k))
+                    for k in range(len(initial["curves"]))]
+        self.assertEqual(sorted(a for c in by_curve for a in c["arcs"]), everything["arcs"])
+        for name in ("kept_length", "dropped_length"):
+            self.assertAlmostEqual(sum(c[name] for c in by_curve), everything[name])
+        text = self.succeed("explain", "adapted.fcn.json", "--arc",
+                            str(everything["dropped"][0]["origin_arc"])).stdout
+        self.assertIn("rmin", text)
+        for arguments, message in ((["--curve", "99999"], "there is no curve 99999"),
+                                   (["--arc", "99999"], "there is no arc 99999")):
+            done = self.run_program("explain", "adapted.fcn.json", *arguments)
+            self.assertEqual(done.returncode, BAD_INPUT)
+            self.assertIn(message, done.stderr)
+        done = self.run_program("explain", "initial.fcn.json")
+        self.assertEqual(done.returncode, BAD_INPUT)
+
+    def test_symmetric_partners_share_their_fate(self):
+        self.model("gear", "--count", "6", "--resolution", "0.06")
+        self.succeed("adapt", "gear.off", "--method", "sharp", "--symmetry", "--scale", "5%", "-o",
+                     "gear.fcn.json")
+        initial = self.succeed_json("detect", "gear.off", "--method", "sharp", "--symmetry", "-o",
+                                    "initial.fcn.json")
+        self.assertGreater(initial["network"]["orbits"], 2)
+        with open(self.folder / "initial.fcn.json", encoding="utf-8") as file:
+            orbits = json.load(file)["orbits"]
+        for orbit in orbits:
+            kept = {round(self.succeed_json("explain", "gear.fcn.json", "--arc",
+                                            str(member["arc"]))["kept_length"], 3) > 0
+                    for member in orbit["members"][:4]}
+            self.assertEqual(len(kept), 1, orbit)
+
     def test_standard_streams(self):
         mesh = self.succeed("model", "box", "--resolution", "0.3", "-o", "-").stdout
         self.assertTrue(mesh.startswith("OFF"))
@@ -186,6 +233,7 @@ class Run(ProgramTest):
                           ["measure", "out/box/20pct/remesh.obj", "box.off"],
                           ["solve", problem, "-o", "a.sol"], ["verify", problem, "a.sol"],
                           ["convert", network, "a.obj"], ["model", "--list"],
+                          ["explain", network],
                           ["detect", "box.off", "-o", "net.fcn.json"],
                           ["remesh", "box.off", "--scale", "20%", "-o", "remesh.obj"]):
             found |= keys_of(self.succeed_json(*arguments))

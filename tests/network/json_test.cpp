@@ -83,6 +83,7 @@ void expect_same(const FeatureCurveNetwork& a, const FeatureCurveNetwork& b) {
         EXPECT_EQ(p.label, q.label);
         EXPECT_EQ(p.reason, q.reason);
         EXPECT_EQ(p.blockers, q.blockers);
+        EXPECT_EQ(p.margin, q.margin);
         EXPECT_EQ(p.weight, q.weight);
     }
 }

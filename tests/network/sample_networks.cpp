@@ -142,9 +142,16 @@ FeatureCurveNetwork adapted_cube() {
     OrbitMember representative;
     representative.arc = 0;
     network.orbits.push_back({{representative, image}});
-    network.dropped.push_back(
-        {{{0, 0, 2}, {1, 0, 2}, {1, 1, 2}}, 3, 2, 17, "conflict", {4, 5}, 12.5});
-    network.dropped.push_back({{{1, 1, 2}, {1, 2, 2}}, -1, 0, -1, "short arc", {}, 0});
+    network.dropped.push_back({{{0, 0, 2}, {1, 0, 2}, {1, 1, 2}},
+                               3,
+                               2,
+                               17,
+                               "conflict",
+                               {{4, 2, 20.25, "distance", 0.125}, {5}},
+                               12.5,
+                               7.75});
+    network.dropped.push_back({{{1, 1, 2}, {1, 2, 2}}, -1, 0, -1, "short arc", {}, 0, {}});
+    network.origin_curves = {0, 0, 1, -1};
     network.notes = {"boundary loop 3 is too small", "second note"};
     return network;
 }

@@ -46,7 +46,7 @@ FeatureCurveNetwork one_edge(bool is_adapted) {
     heavy.reason = "conflict";
     heavy.weight = 20;
     heavy.label = 4;
-    heavy.blockers = {0, 6};
+    heavy.blockers = {{0}, {6}};
     network.dropped = {light, heavy};
     network.notes = {"note on <adapted>"};
     return network;
