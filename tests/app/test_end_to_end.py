@@ -5,7 +5,7 @@ import pathlib
 import re
 import unittest
 
-from scalefcn_process import VIOLATION, ProgramTest
+from scalefcn_process import BAD_INPUT, VIOLATION, ProgramTest
 
 SCALE_FILES = {"initial.fcn.json", "adapted.fcn.json", "initial.obj", "network.obj", "remesh.obj"}
 
@@ -173,11 +173,9 @@ class StepByStep(ProgramTest):
         self.assertIn("rmin", text)
         for arguments, message in ((["--curve", "99999"], "there is no curve 99999"),
                                    (["--arc", "99999"], "there is no arc 99999")):
-            done = self.run_program("explain", "adapted.fcn.json", *arguments)
-            self.assertEqual(done.returncode, BAD_INPUT)
+            done = self.succeed("explain", "adapted.fcn.json", *arguments, code=BAD_INPUT)
             self.assertIn(message, done.stderr)
-        done = self.run_program("explain", "initial.fcn.json")
-        self.assertEqual(done.returncode, BAD_INPUT)
+        self.succeed("explain", "initial.fcn.json", code=BAD_INPUT)
 
     def test_symmetric_partners_share_their_fate(self):
         self.model("gear", "--count", "6", "--resolution", "0.06")
