@@ -281,7 +281,11 @@ private:
                 accuse("its labels are infeasible: " + check.message);
             }
         }
-        if (found && answer.value && !is_fitting(answer, static_cast<double>(*found))) {
+        const bool is_off =
+            found && answer.value && !is_fitting(answer, static_cast<double>(*found));
+        const bool is_fractional =
+            is_off && is_within_integrality(*answer.value - static_cast<double>(*found));
+        if (is_off && !is_fractional) {
             is_honest = false;
             accuse("it claims the value " + plain(*answer.value) + ", its labels are worth " +
                    std::to_string(*found));
@@ -298,6 +302,9 @@ private:
         if (answer.claim == Claim::Optimal) {
             if (!found && is_honest) {
                 accuse("it claims an optimum and shows none");
+            } else if (is_fractional) {
+                take_bound(std::max(*answer.value, static_cast<double>(*found)));
+                message_ = "optimal with labels that are not quite integers";
             } else if (is_honest && !is_accused()) {
                 take_optimum(*found, answer);
             }
@@ -314,6 +321,14 @@ private:
         if (*answer.value > worth + error) return false;
         return answer.claim != Claim::Optimal || options_.relative_gap > 0 ||
                *answer.value >= worth - error;
+    }
+
+    /// MIP solvers take numbers near enough to 0 and 1 for labels, and count them as they are:
+    /// their value may be that much off, and then proves nothing, but it is no lie.
+    bool is_within_integrality(double difference) const {
+        constexpr double kIntegrality = 1e-6;
+        return !program_.is_exact &&
+               std::abs(difference) <= kIntegrality * static_cast<double>(total_);
     }
 
     void take_bound(double bound) {

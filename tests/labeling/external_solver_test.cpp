@@ -148,6 +148,26 @@ TEST_F(FakePrograms, LiesAreRefused) {
     expect_accused(solve(answer("status optimal\n")), "shows none");
 }
 
+TEST_F(FakePrograms, LabelsThatAreNotQuiteIntegersProveNothing) {
+    labeling::ProblemBuilder builder;
+    for (const labeling::Value weight : {5'000'000, 7'000'000}) builder.add_label(weight);
+    builder.add_conflict(0, 1);
+    const auto solve_large = [&](const std::string& lines) {
+        return make_external_solver(program(answer(lines)))->solve(builder.build());
+    };
+    // A ten-millionth of the label that is out, beside all of the one that is in, is worth half a
+    // unit: such a sum rounds to one more than the labels are worth.
+    const SolveResult rounded =
+        solve_large("status optimal\nvalue 7000001\nbound 7000001\nlabel 2\n");
+    EXPECT_EQ(rounded.statistics.count("false_claims"), 0u);
+    EXPECT_EQ(rounded.status, SolveStatus::Feasible);
+    ASSERT_TRUE(rounded.solution);
+    EXPECT_EQ(rounded.solution->value, 7'000'000);
+    EXPECT_GE(rounded.bound.value_or(7'000'001), 7'000'001);
+    const SolveResult lie = solve_large("status optimal\nvalue 7000100\nlabel 2\n");
+    expect_failure(lie, "claims the value 7000100");
+}
+
 TEST_F(FakePrograms, LiesAgainstWhatIsKnownAreRefused) {
     SolveOptions options;
     options.warm_start = {0, 1, 1};
