@@ -137,7 +137,11 @@ void write_element(JsonText& out, const DroppedPiece& piece) {
                  out.string(blocker.conflict) << ",\"measured\":" << blocker.measured << "}";
              })
         << ",\"weight\":" << piece.weight;
-    if (piece.margin) out << ",\"margin\":" << *piece.margin;
+    out << ",\"margin\":";
+    if (piece.margin)
+        out << *piece.margin;
+    else
+        out << "null";
     out << ",\"polyline\":";
     out.list(piece.polyline) << "}";
 }
@@ -282,7 +286,7 @@ DroppedPiece read_dropped(const JsonCursor& at) {
     if (at.has("reason")) piece.reason = at.at("reason").string();
     if (at.has("blockers")) piece.blockers = read_list(at.at("blockers"), read_blocker);
     if (at.has("weight")) piece.weight = at.at("weight").number();
-    if (at.has("margin")) piece.margin = at.at("margin").number();
+    if (at.has("margin") && !at.at("margin").is_null()) piece.margin = at.at("margin").number();
     return piece;
 }
 
@@ -343,10 +347,8 @@ std::string network_to_json(const FeatureCurveNetwork& network) {
     write_list(out, "curves", network.curves);
     write_list(out, "orbits", network.orbits);
     write_list(out, "dropped", network.dropped);
-    if (!network.origin_curves.empty()) {
-        out << ",\n\"origin_curves\": ";
-        out.list(network.origin_curves);
-    }
+    out << ",\n\"origin_curves\": ";
+    out.list(network.origin_curves);
     write_list(out, "notes", network.notes);
     out << "\n}\n";
     return out.take();

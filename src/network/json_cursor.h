@@ -27,6 +27,7 @@ public:
     /// Throws if absent; call on an object.
     JsonCursor at(const char* key) const;
 
+    bool is_null() const { return value_.is_null(); }
     double number() const;
     int integer(int least = std::numeric_limits<int>::min()) const;
     bool boolean() const;

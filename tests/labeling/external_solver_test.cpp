@@ -152,8 +152,9 @@ TEST_F(FakePrograms, LabelsThatAreNotQuiteIntegersProveNothing) {
     labeling::ProblemBuilder builder;
     for (const labeling::Value weight : {5'000'000, 7'000'000}) builder.add_label(weight);
     builder.add_conflict(0, 1);
+    const LabelingProblem problem = builder.build();
     const auto solve_large = [&](const std::string& lines) {
-        return make_external_solver(program(answer(lines)))->solve(builder.build());
+        return make_external_solver(program(answer(lines)))->solve(problem);
     };
     // A ten-millionth of the label that is out, beside all of the one that is in, is worth half a
     // unit: such a sum rounds to one more than the labels are worth.

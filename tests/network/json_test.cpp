@@ -124,6 +124,11 @@ void expect_described(const nlohmann::json& value, nlohmann::json schema,
         EXPECT_EQ(std::count(schema["enum"].begin(), schema["enum"].end(), value), 1) << value;
     }
     if (!schema.contains("type")) return;
+    if (schema["type"].is_array()) {  // one of several
+        const auto& types = schema["type"];
+        EXPECT_EQ(std::count(types.begin(), types.end(), value.type_name()), 1) << value;
+        return;
+    }
     const std::string type = schema["type"];
     EXPECT_TRUE(type == value.type_name() || (type == "integer" && value.is_number_integer()))
         << value.type_name() << ", not " << type;

@@ -46,7 +46,8 @@ FeatureCurveNetwork one_edge(bool is_adapted) {
     heavy.reason = "conflict";
     heavy.weight = 20;
     heavy.label = 4;
-    heavy.blockers = {{0}, {6}};
+    heavy.blockers = {{0, 3, 1.5, "distance", 0.25}, {6}};
+    heavy.margin = 2.5;
     network.dropped = {light, heavy};
     network.notes = {"note on <adapted>"};
     return network;
@@ -256,7 +257,8 @@ TEST(ReportTables, HeaviestDropsComeFirstWithTheirBlockers) {
     ASSERT_EQ(table.rows.size(), 2U);
     EXPECT_EQ(table.rows[0][0], "conflict");
     EXPECT_EQ(table.rows[0][5], "5");  // labels from 1
-    EXPECT_EQ(table.rows[0][6], "1, 7");
+    EXPECT_EQ(table.rows[0][6], "2.500");
+    EXPECT_EQ(table.rows[0][7], "1 (distance, arc 3), 7");
     EXPECT_EQ(heaviest_drops_table(one_edge(true), 1).rows.size(), 1U);
 }
 
