@@ -16,8 +16,10 @@ namespace labeling {
 namespace {
 
 constexpr std::int64_t kSmallTreeTicks = 20000;
-/// The search before a proof that is near, in ticks per label.
-constexpr std::int64_t kShortChain = 15, kShortPatience = 10, kShortSearch = 60;
+/// The search before a proof that is near, in ticks per label; so many times longer where the first
+/// LP alone takes a good part of a second, since nothing comes from it until it ends.
+constexpr std::int64_t kShortChain = 15, kShortPatience = 10, kShortSearch = 60, kSlowFactor = 6;
+constexpr std::size_t kSlowColumns = 8000, kSlowConflictsPerLabel = 5;
 /// Where labels have so many rules, proofs are far and the search is long.
 constexpr std::int64_t kManyRulesPerLabel = 5;
 constexpr std::int64_t kPatiencePerLabel = 250;
@@ -72,6 +74,13 @@ bool is_proof_far(const LabelingProblem& problem, const PartSearchOptions& optio
                kManyRulesPerLabel * problem.label_count();
 }
 
+/// Will the first LP be slow, by its size or by how dense the conflicts are?
+bool is_lp_slow(const LabelingProblem& problem) {
+    return column_count(problem) > kSlowColumns ||
+           problem.conflict_count() >=
+               kSlowConflictsPerLabel * static_cast<std::size_t>(problem.label_count());
+}
+
 /// At most half of what is left, so that the bound gets its turn, and that only while it
 /// gains.
 std::int64_t first_search_ticks(const LabelingProblem& problem, const RunControl& control) {
@@ -98,12 +107,13 @@ PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t
     if (problem.label_count() <= options.techniques.tree_size || control.should_stop())
         return start;
     const bool is_far = is_proof_far(problem, options);
-    const auto label_count = static_cast<std::int64_t>(problem.label_count());
+    const std::int64_t unit =
+        (is_lp_slow(problem) ? kSlowFactor : 1) * static_cast<std::int64_t>(problem.label_count());
     RunControl::Cap cap(control,
-                        is_far ? first_search_ticks(problem, control) : kShortSearch * label_count);
+                        is_far ? first_search_ticks(problem, control) : kShortSearch * unit);
     LocalSearchOptions search;
-    search.patience = is_far ? first_search_patience(problem) : kShortPatience * label_count;
-    search.first_chain = is_far ? 0 : kShortChain * label_count;
+    search.patience = is_far ? first_search_patience(problem) : kShortPatience * unit;
+    search.first_chain = is_far ? 0 : kShortChain * unit;
     search.seed = options.seed;
     search.threads = options.threads;
     const std::function<void(Value)> report = [&](Value value) {
