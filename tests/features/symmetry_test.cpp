@@ -205,6 +205,10 @@ struct GearCase {
     double noise;  ///< of the mesh's edge length
 };
 
+std::ostream& operator<<(std::ostream& out, const GearCase& gear) {
+    return out << gear.teeth << " teeth, noise " << gear.noise;
+}
+
 class Gears : public ::testing::TestWithParam<GearCase> {};
 
 TEST_P(Gears, AllOrbitsAreFound) {
@@ -222,7 +226,11 @@ TEST_P(Gears, AllOrbitsAreFound) {
 
 INSTANTIATE_TEST_SUITE_P(Teeth, Gears,
                          ::testing::Values(GearCase{5, 0}, GearCase{5, 0.01}, GearCase{8, 0},
-                                           GearCase{13, 0.01}, GearCase{24, 0}));
+                                           GearCase{13, 0.01}, GearCase{24, 0}),
+                         [](const auto& test) {
+                             return std::to_string(test.param.teeth) +
+                                    (test.param.noise > 0 ? "_noisy" : "_clean");
+                         });
 
 TEST(SymmetryTest, MirroredCopiesPairUp) {
     const Isometry mirror = reflection_between({0.3, -1.2, 0.1}, {0.5, -0.2, 0.3});
