@@ -8,12 +8,12 @@
 
 #include "features/crest_smoothing.h"
 
-#include <Eigen/Sparse>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "features/smoothing_spline.h"
 
 namespace fcn {
 namespace {
@@ -22,34 +22,6 @@ constexpr double kWavelength = 2;       // in radii of the fits, at which half r
 constexpr double kLoopResponse = 0.98;  // of a closed line's first harmonic, at least
 constexpr int kNearIntervals = 6;       // of the spline that a crossing is compared with
 constexpr double kCoincident = 1e-9;    // of an edge: crossings that are vertices anyway
-
-/// The spline through `count` points; an open one keeps its first and last.
-Eigen::MatrixX3d spline(const Eigen::MatrixX3d& start, double weight, bool is_cyclic) {
-    const int count = static_cast<int>(start.rows());
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::MatrixX3d right = start;
-    const auto is_held = [&](int i) { return !is_cyclic && (i == 0 || i == count - 1); };
-    for (int i = 0; i < count; ++i) entries.emplace_back(i, i, 1);
-    for (int center = is_cyclic ? 0 : 1; center < (is_cyclic ? count : count - 1); ++center) {
-        const int index[3] = {(center + count - 1) % count, center, (center + 1) % count};
-        const double factor[3] = {1, -2, 1};
-        for (int i = 0; i < 3; ++i) {
-            if (is_held(index[i])) continue;
-            for (int k = 0; k < 3; ++k) {
-                const double value = weight * factor[i] * factor[k];
-                if (is_held(index[k])) {
-                    right.row(index[i]) -= value * start.row(index[k]);
-                } else {
-                    entries.emplace_back(index[i], index[k], value);
-                }
-            }
-        }
-    }
-    Eigen::SparseMatrix<double> matrix(count, count);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-    return solver.solve(right);
-}
 
 /// Squared distance of segments pq and ab, and the parameter on ab of its closest point.
 std::pair<double, double> closest_on(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& q) {
@@ -116,7 +88,8 @@ private:
             const double harmonic = 2 - 2 * std::cos(2 * std::numbers::pi / count);
             weight = std::min(weight, (1 / kLoopResponse - 1) / (harmonic * harmonic));
         }
-        const Eigen::MatrixX3d smooth = spline(start, weight, is_cyclic);
+        const std::vector<double> pull(static_cast<std::size_t>(start.rows()), 1.0);
+        const Eigen::MatrixX3d smooth = smoothing_spline(start, pull, weight, is_cyclic);
         for (int i = 0; i < count; ++i) {
             if (!is_cyclic && (i == 0 || i == count - 1)) continue;
             slide(points[i], i, smooth, is_cyclic);
