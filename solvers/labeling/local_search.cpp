@@ -404,7 +404,8 @@ public:
         RunControl control(options, work);
         LocalSearchStatistics statistics;
         auto found =
-            search_reduced(problem, options, control, extra_switch(options, "reductions", true),
+            search_reduced(problem, options, control,
+                           extra_switch(options, "reductions", should_reduce_first(problem)),
                            [&](const LabelingProblem& rest, const RowSystem& rows, Solution start,
                                const std::function<void(Value)>& report) {
                                return improve_labeling(rest, rows, control, std::move(start),

@@ -203,7 +203,8 @@ public:
         RunControl control(options, work);
         NeighbourhoodSearchStatistics statistics;
         auto found =
-            search_reduced(problem, options, control, extra_switch(options, "reductions", true),
+            search_reduced(problem, options, control,
+                           extra_switch(options, "reductions", should_reduce_first(problem)),
                            [&](const LabelingProblem& rest, const RowSystem& rows, Solution start,
                                const std::function<void(Value)>& report) {
                                NeighbourhoodSearchOptions search{

@@ -16,9 +16,11 @@ namespace labeling {
 namespace {
 
 constexpr std::int64_t kSmallTreeTicks = 20000;
-/// The search before a proof that is near, in ticks per label; so many times longer where the first
-/// LP alone takes a good part of a second, since nothing comes from it until it ends.
-constexpr std::int64_t kShortChain = 15, kShortPatience = 10, kShortSearch = 60, kSlowFactor = 6;
+/// The search before a proof that is near, in ticks per label.
+constexpr std::int64_t kShortChain = 15, kShortPatience = 10, kShortSearch = 60;
+/// Where the first LP alone takes a good part of a second, nothing comes from it until it ends, so
+/// the search may take a third of a second.
+constexpr std::int64_t kSlowSearch = 4'000'000, kSlowPatience = 800'000, kSlowChain = 90;
 constexpr std::size_t kSlowColumns = 8000, kSlowConflictsPerLabel = 5;
 /// Where labels have so many rules, proofs are far and the search is long.
 constexpr std::int64_t kManyRulesPerLabel = 5;
@@ -81,12 +83,25 @@ bool is_lp_slow(const LabelingProblem& problem) {
                kSlowConflictsPerLabel * static_cast<std::size_t>(problem.label_count());
 }
 
-/// At most half of what is left, so that the bound gets its turn, and that only while it
-/// gains.
-std::int64_t first_search_ticks(const LabelingProblem& problem, const RunControl& control) {
-    const std::int64_t least = 2 * first_search_patience(problem);
-    const std::int64_t most = kMostSearchTicksPerLabel * problem.label_count();
-    return std::clamp(control.ticks_left() / 2, least, std::max(least, most));
+/// How the search before the proof goes. Far from a proof: at most half of what is left, so that
+/// the bound gets its turn, and that only while it gains.
+std::int64_t first_search_ticks(const LabelingProblem& problem, const RunControl& control,
+                                const PartSearchOptions& options, LocalSearchOptions& search) {
+    const auto labels = static_cast<std::int64_t>(problem.label_count());
+    if (is_proof_far(problem, options)) {
+        search.patience = first_search_patience(problem);
+        const std::int64_t least = 2 * search.patience;
+        const std::int64_t most = kMostSearchTicksPerLabel * labels;
+        return std::clamp(control.ticks_left() / 2, least, std::max(least, most));
+    }
+    if (is_lp_slow(problem)) {
+        search.patience = kSlowPatience;
+        search.first_chain = kSlowChain * labels;
+        return kSlowSearch;
+    }
+    search.patience = kShortPatience * labels;
+    search.first_chain = kShortChain * labels;
+    return kShortSearch * labels;
 }
 
 }  // namespace
@@ -106,14 +121,8 @@ PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t
     if (options.report) options.report(start.solution->value, std::nullopt);
     if (problem.label_count() <= options.techniques.tree_size || control.should_stop())
         return start;
-    const bool is_far = is_proof_far(problem, options);
-    const std::int64_t unit =
-        (is_lp_slow(problem) ? kSlowFactor : 1) * static_cast<std::int64_t>(problem.label_count());
-    RunControl::Cap cap(control,
-                        is_far ? first_search_ticks(problem, control) : kShortSearch * unit);
     LocalSearchOptions search;
-    search.patience = is_far ? first_search_patience(problem) : kShortPatience * unit;
-    search.first_chain = is_far ? 0 : kShortChain * unit;
+    RunControl::Cap cap(control, first_search_ticks(problem, control, options, search));
     search.seed = options.seed;
     search.threads = options.threads;
     const std::function<void(Value)> report = [&](Value value) {

@@ -29,6 +29,10 @@ bool takes_long_to_reduce(const LabelingProblem& problem) {
     return problem.label_count() > kLargeProblem || problem.conflict_count() > kLargeConflicts;
 }
 
+bool should_reduce_first(const LabelingProblem& problem) {
+    return problem.rule_count() == 0 || takes_long_to_reduce(problem);
+}
+
 ReducedSearchResult search_reduced(const LabelingProblem& problem, const SolveOptions& options,
                                    RunControl& control, bool is_reducing, const Improve& improve) {
     ReducedSearchResult result;

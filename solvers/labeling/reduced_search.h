@@ -23,8 +23,13 @@ using Improve = std::function<Solution(const LabelingProblem& problem, const Row
 /// So long that a labeling is wanted before.
 bool takes_long_to_reduce(const LabelingProblem& problem);
 
-/// The frame of the heuristics: reductions (unless switched off), greedy, `improve` on what is
-/// left, lifting. Never worse than a feasible warm start.
+/// Whether heuristics are better off with reductions first, unless told. Folded labels take several
+/// of the problem's at once, so moves see less: with rules, searches got stuck up to 5% lower.
+/// Rules aside, and where labels are many, what reductions remove is worth more.
+bool should_reduce_first(const LabelingProblem& problem);
+
+/// The frame of the heuristics: reductions (if so told), greedy, `improve` on what is left,
+/// lifting. Never worse than a feasible warm start.
 ReducedSearchResult search_reduced(const LabelingProblem& problem, const SolveOptions& options,
                                    RunControl& control, bool is_reducing, const Improve& improve);
 
