@@ -17,6 +17,7 @@
 
 #include "adaptation/blockers.h"
 #include "adaptation/collapse.h"
+#include "adaptation/conflict_places.h"
 #include "adaptation/conflicts.h"
 #include "adaptation/explanation.h"
 #include "adaptation/incremental_solver.h"
@@ -48,6 +49,8 @@ constexpr int kCrumbRounds = 20;
 constexpr int kRefillRounds = 3;
 /// A dropped piece of which this share came back is no longer listed as dropped.
 constexpr double kCameBack = 0.5;
+/// Conflicts that are recorded with their places.
+constexpr std::size_t kMostPlaces = 20000;
 /// More samples than this do not fit into memory.
 constexpr double kMostSamples = 5e7;
 
@@ -418,6 +421,11 @@ private:
             if (crumbs.empty()) {
                 record_solve(iteration, result, bridge);
                 record_dropped(iteration, graph, conflicts, bridge, kept);
+                if (options_.is_recording_problems && iteration.iteration == 1) {
+                    report_.conflict_places =
+                        conflict_places(conflicts.conflicts, graph.graph, weights_, kept,
+                                        origin_of_segment(graph), kMostPlaces);
+                }
                 return kept;
             }
             for (const Crumb& crumb : crumbs) {
@@ -456,14 +464,19 @@ private:
         }
     }
 
-    void record_dropped(IterationReport& iteration, const NetworkGraph& graph,
-                        const ConflictResult& conflicts, const LabelingBridge& bridge,
-                        const std::vector<bool>& kept) {
-        const auto origin_of = [&](int segment) {
+    /// The arc of the initial network that a segment comes from, for as long as `graph` lives.
+    std::function<int(int)> origin_of_segment(const NetworkGraph& graph) {
+        return [this, &graph](int segment) {
             const SegmentSource& source = graph.sources[segment];
             return majority_origin(network().arcs[source.arc], source.first_sample,
                                    source.last_sample);
         };
+    }
+
+    void record_dropped(IterationReport& iteration, const NetworkGraph& graph,
+                        const ConflictResult& conflicts, const LabelingBridge& bridge,
+                        const std::vector<bool>& kept) {
+        const std::function<int(int)> origin_of = origin_of_segment(graph);
         for (std::size_t s = 0; s < kept.size(); ++s) {
             if (kept[s]) {
                 ++iteration.kept;

@@ -71,12 +71,24 @@ struct ThinWallPair {
     double distance = 0;
 };
 
+/// A conflict of the first labeling problem, as it lies in space.
+struct ConflictPlace {
+    std::string kind;                                  ///< "angle", "distance", "crossing", "nodes"
+    Vec3 first = Vec3::Zero(), second = Vec3::Zero();  ///< midpoints of the two segments
+    double measured = 0;  ///< between the two: radians for an angle, else mesh units
+    std::array<int, 2> origin_arcs{-1, -1};  ///< arcs of the initial network
+    std::array<double, 2> weights{0, 0};     ///< of the two segments, real units
+    std::array<bool, 2> is_kept{false, false};
+};
+
 struct AdaptationReport {
     AdaptationStatus status = AdaptationStatus::Converged;
     std::vector<IterationReport> iterations;
     /// Per iteration when is_recording_problems: the problem and the solver's answer.
     std::vector<labeling::LabelingProblem> problems;
     std::vector<labeling::Solution> solutions;
+    /// Of the first iteration when is_recording_problems; every k-th if there are too many.
+    std::vector<ConflictPlace> conflict_places;
     bool is_optimal = false;  ///< every iteration proven optimal
     /// Sharpness-weighted share of the initial feature length within rmin of the final network.
     double coverage = 0;
