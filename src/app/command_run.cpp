@@ -16,6 +16,7 @@
 #include "app/outputs.h"
 #include "app/pipeline.h"
 #include "app/run_files.h"
+#include "app/viewer_script.h"
 #include "geometry/errors.h"
 
 namespace fcn::app {
@@ -34,6 +35,7 @@ struct RunArguments {
     std::string solvers = "greedy,local-search,branch-and-bound,cbc,auto";
     std::string output = "out";
     bool is_without_remesh = false;
+    bool is_without_viewer = false;
     std::string command_line;
 };
 
@@ -45,6 +47,7 @@ struct Run {
     std::vector<MeshRecord> records;
     Json meshes = Json::array();
     std::set<std::string> used_names;
+    std::string viewer_script;
     int code = kDone;
 };
 
@@ -86,6 +89,7 @@ Run prepare(const RunArguments& arguments) {
     options.compared_solvers = compared_solvers(arguments.solvers);
     options.comparison = arguments.comparison.solve_options(arguments.common);
     options.is_remeshing = !arguments.is_without_remesh;
+    if (!arguments.is_without_viewer) run.viewer_script = find_viewer_script();
     return run;
 }
 
@@ -120,6 +124,7 @@ void write_report_so_far(const Run& run, const RunArguments& arguments) {
     ReportOptions options;
     options.command = arguments.command_line;
     options.has_timings = !arguments.common.is_timeless;
+    options.viewer_script = run.viewer_script;
     write_report(run.folder / "report.html", run.records, options);
 }
 
@@ -239,6 +244,8 @@ void add_run_arguments(CLI::App& parser, RunArguments& arguments) {
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
         ->capture_default_str();
     parser.add_flag("--no-remesh", arguments.is_without_remesh, "Do not make triangle meshes");
+    parser.add_flag("--no-viewer", arguments.is_without_viewer,
+                    "A report with pictures only, smaller and without scripts");
 }
 
 }  // namespace

@@ -46,9 +46,11 @@ void add_remeshes(ScaleRecord& scale, const MeshRecord& record, const std::strin
     warnings.insert(warnings.end(), adapted.warnings.begin(), adapted.warnings.end());
     if (is_interrupted()) return;
     bar.show(what + ": remeshing on the initial network", 0.95);
-    const RemeshResult initial = remesh_on(record.initial, record, scale.rmin);
+    RemeshResult initial = remesh_on(record.initial, record, scale.rmin);
     scale.initial_quality = measure_triangles(initial.mesh.mesh);
     scale.has_initial_remesh = true;
+    scale.compared.push_back(
+        {"Remesh on the initial network", std::move(initial.mesh.mesh), scale.initial_quality});
 }
 
 }  // namespace

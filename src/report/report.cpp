@@ -7,6 +7,7 @@
 #include "report/report_pictures.h"
 #include "report/report_style.h"
 #include "report/report_tables.h"
+#include "report/report_viewer.h"
 
 namespace fcn {
 namespace {
@@ -43,10 +44,13 @@ public:
         write_closing_table();
         html_.close();
         write_footer();
+        if (has_viewer()) write_viewer_script(html_, options_.viewer_script);
         return html_.finish();
     }
 
 private:
+    bool has_viewer() const { return !options_.viewer_script.empty(); }
+
     void write_head() {
         html_.open("head");
         html_.empty("meta", {{"charset", "utf-8"}});
@@ -139,6 +143,8 @@ private:
                       {{"class", "facts"}});
         write_messages("Messages", record.messages);
         write_messages("Notes on the initial network", record.initial.notes);
+        if (has_viewer())
+            write_viewer(html_, record, mesh_id(index) + "-viewer", viewer_face_limit(meshes_));
         const ReportPalette palette;
         write_figure(
             pictures.initial(),
@@ -301,7 +307,10 @@ private:
     void write_footer() {
         html_.open("footer");
         html_.open("p", {{"class", "facts"}});
-        html_.text("This page needs no network and no scripts; the pictures are part of it.");
+        html_.text(has_viewer()
+                       ? "This page needs no network; pictures and 3D views are part of it."
+                       : "This page needs no network and no scripts; the pictures are part of it. "
+                         "Pictures only: the 3D viewer was not set up (scripts/setup_viewer.sh).");
         html_.close();
         html_.close();
     }

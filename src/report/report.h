@@ -22,6 +22,13 @@ struct SolverComparison {
     double seconds = 0;
 };
 
+/// Another mesh made for the same edge length, to set beside the remesh.
+struct ComparedMesh {
+    std::string name;  ///< what was done: "on the initial network"
+    Mesh mesh;
+    TriangleQuality quality;
+};
+
 /// Everything that was done for one mesh at one scale.
 struct ScaleRecord {
     std::string label;  ///< as typed: "2%"
@@ -33,6 +40,7 @@ struct ScaleRecord {
     TriangleQuality remesh_quality;
     TriangleQuality initial_quality;  ///< remeshed with the initial network protected
     bool has_remesh = false, has_initial_remesh = false;
+    std::vector<ComparedMesh> compared;  ///< for the 3D view alone
 };
 
 struct MeshRecord {
@@ -47,9 +55,11 @@ struct ReportOptions {
     std::string title = "scalefcn report";
     std::string command;  ///< the command line that made it
     bool has_timings = true;
+    std::string viewer_script;  ///< the 3D viewer's JavaScript; empty: pictures only
 };
 
-/// One self-contained HTML file (pictures embedded), written atomically. Readable offline.
+/// One self-contained HTML file (pictures and the viewer's data embedded), written atomically.
+/// Readable offline. Throws InputError when the script cannot stand in a page.
 void write_report(const std::filesystem::path& path, const std::vector<MeshRecord>& meshes,
                   const ReportOptions& options = {});
 

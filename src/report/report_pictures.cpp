@@ -1,10 +1,9 @@
-// What the report shows. Segments are chords and leave the surface between their nodes; they are
-// drawn as their closest points on the surface, so that they neither vanish in it nor hover: what
-// is seen is the polygon that the remesher gets.
 #include "report/report_pictures.h"
 
 #include <cstdio>
 #include <set>
+
+#include "report/drawn_curves.h"
 
 namespace fcn {
 namespace {
@@ -12,18 +11,6 @@ namespace {
 constexpr int kChordSamples = 12;
 constexpr double kThin = 2, kMedium = 2.4, kThick = 3;  ///< pixels
 constexpr int kWidth = 840, kHeight = 640;
-
-using Polyline = std::vector<Vec3>;
-
-bool is_pinned(const NetworkArc& arc) {
-    return arc.kind != ArcKind::Feature || arc.pin == Pin::Keep;
-}
-
-Polyline polyline_of(const NetworkArc& arc) {
-    Polyline points;
-    for (const ArcSample& sample : arc.samples) points.push_back(sample.position);
-    return points;
-}
 
 /// Arcs of a network as layers: free ones, and pinned ones on top.
 std::vector<PictureLayer> arc_layers(const FeatureCurveNetwork& network, double width) {
@@ -36,19 +23,6 @@ std::vector<PictureLayer> arc_layers(const FeatureCurveNetwork& network, double 
 
 bool has_node(const FeatureCurveNetwork& network, int node) {
     return node >= 0 && node < static_cast<int>(network.nodes.size());
-}
-
-/// A chord as it lies on the surface; where the surface is far away, the chord itself.
-Polyline on_surface(const Vec3& from, const Vec3& to, const SurfaceQueries& surface) {
-    const double reach = 0.3 * (to - from).norm();
-    Polyline points;
-    for (int i = 0; i <= kChordSamples; ++i) {
-        const double t = static_cast<double>(i) / kChordSamples;
-        const Vec3 chord = (1 - t) * from + t * to;
-        const ClosestPoint closest = surface.closest(chord);
-        points.push_back(closest.distance <= reach ? closest.position : chord);
-    }
-    return points;
 }
 
 /// Segments (free, pinned) and a dot on each of their nodes.
@@ -71,7 +45,7 @@ std::vector<PictureLayer> segment_layers(const FeatureCurveNetwork& network,
                 .nodes[static_cast<std::size_t>(segment.nodes[static_cast<std::size_t>(end)])]
                 .position;
         };
-        layers[kind].polylines.push_back(on_surface(at(0), at(1), surface));
+        layers[kind].polylines.push_back(chord_on_surface(at(0), at(1), surface, kChordSamples));
         for (const int end : {0, 1})
             if (dotted.insert(segment.nodes[static_cast<std::size_t>(end)]).second)
                 layers[2 + kind].polylines.push_back({at(end)});

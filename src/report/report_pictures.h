@@ -10,12 +10,13 @@
 
 namespace fcn {
 
-/// Colours of the report's pictures and their legends.
+/// Colours of the report's pictures and their legends, after Okabe and Ito: told apart with any
+/// kind of colour vision. The same in viewer/src/palette.js.
 struct ReportPalette {
-    Color initial{38, 70, 122};
-    Color kept{176, 24, 44};
-    Color dropped{232, 128, 8};
-    Color pinned{22, 130, 72};
+    Color initial{82, 92, 106};
+    Color kept{0, 100, 176};
+    Color dropped{213, 94, 0};
+    Color pinned{0, 130, 95};
     Color single{150, 156, 164};  ///< arcs without symmetric partners
     std::array<Color, 8> orbits{Color{176, 24, 44},  Color{38, 70, 122},  Color{232, 128, 8},
                                 Color{22, 130, 72},  Color{128, 62, 150}, Color{0, 140, 160},

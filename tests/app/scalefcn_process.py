@@ -41,9 +41,10 @@ class ProgramTest(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="scalefcn-test-"))
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
 
-    def call(self, *arguments, stdin=None, timeout=300):
+    def call(self, *arguments, stdin=None, timeout=300, environment=None):
         return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, input=stdin,
-                              capture_output=True, text=True, timeout=timeout, check=False)
+                              capture_output=True, text=True, timeout=timeout, check=False,
+                              env={**os.environ, **(environment or {})})
 
     def succeed(self, *arguments, code=DONE, stdin=None):
         result = self.call(*arguments, stdin=stdin)

@@ -221,6 +221,24 @@ class Run(ProgramTest):
         with open(self.folder / "out/summary.json", encoding="utf-8") as file:
             self.assertEqual(json.load(file), summary)
 
+    def test_viewer_is_in_the_report_only_if_there_is_one(self):
+        self.model("box", "--resolution", "0.3")
+        (self.folder / "viewer.js").write_text("viewerMark();", encoding="utf-8")
+        run = ["run", "box.off", "--scales", "20%", "--solvers", "none", "-o", "out"]
+        report = self.folder / "out/report.html"
+        for script, options, has_viewer in (("viewer.js", [], True), ("", [], False),
+                                            ("viewer.js", ["--no-viewer"], False)):
+            result = self.call(*run, *options, environment={"SCALEFCN_VIEWER": script})
+            self.assertEqual(result.returncode, 0, result.stderr)
+            text = report.read_text(encoding="utf-8")
+            self.assertEqual("viewerMark();" in text, has_viewer)
+            self.assertEqual(text.count("data-block="), 2 if has_viewer else 0)
+            self.assertEqual("setup_viewer.sh" in text, not has_viewer)
+        missing = self.call(*run, environment={"SCALEFCN_VIEWER": "no-such.js"})
+        self.assertEqual(missing.returncode, BAD_INPUT)
+        self.assert_one_error(missing.stderr)
+        self.assertIn("no-such.js", missing.stderr)
+
     def test_every_key_is_documented(self):
         self.model("box", "--resolution", "0.2")
         found = keys_of(self.succeed_json("run", "box.off", "--scales", "20%", "--compare-work",

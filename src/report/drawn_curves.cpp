@@ -1,0 +1,73 @@
+// Curves as they are drawn. Segments are chords and leave the surface between their nodes; they are
+// drawn as their closest points on the surface, so that they neither vanish in it nor hover: what
+// is seen is the polygon that the remesher gets.
+#include "report/drawn_curves.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fcn {
+namespace {
+
+double distance_to_chord(const Vec3& point, const Vec3& from, const Vec3& to) {
+    const Vec3 along = to - from;
+    const double square = along.squaredNorm();
+    const double t = square > 0 ? std::clamp((point - from).dot(along) / square, 0.0, 1.0) : 0;
+    return (point - from - t * along).norm();
+}
+
+}  // namespace
+
+bool is_pinned(const NetworkArc& arc) {
+    return arc.kind != ArcKind::Feature || arc.pin == Pin::Keep;
+}
+
+Polyline polyline_of(const NetworkArc& arc) {
+    Polyline points;
+    for (const ArcSample& sample : arc.samples) points.push_back(sample.position);
+    return points;
+}
+
+Polyline chord_on_surface(const Vec3& from, const Vec3& to, const SurfaceQueries& surface,
+                          int pieces) {
+    const double reach = 0.3 * (to - from).norm();
+    Polyline points;
+    for (int i = 0; i <= pieces; ++i) {
+        const double t = static_cast<double>(i) / pieces;
+        const Vec3 chord = (1 - t) * from + t * to;
+        const ClosestPoint closest = surface.closest(chord);
+        points.push_back(closest.distance <= reach ? closest.position : chord);
+    }
+    return points;
+}
+
+Polyline simplified(const Polyline& points, double tolerance) {
+    if (points.size() < 3) return points;
+    // Douglas and Peucker's halving, on a stack of its own: arcs can have very many samples.
+    std::vector<bool> is_left(points.size(), false);
+    is_left.front() = is_left.back() = true;
+    std::vector<std::pair<std::size_t, std::size_t>> open{{0, points.size() - 1}};
+    while (!open.empty()) {
+        const auto [first, last] = open.back();
+        open.pop_back();
+        std::size_t farthest = first;
+        double distance = tolerance;
+        for (std::size_t i = first + 1; i < last; ++i) {
+            const double d = distance_to_chord(points[i], points[first], points[last]);
+            if (d > distance) {
+                distance = d;
+                farthest = i;
+            }
+        }
+        if (farthest == first) continue;
+        is_left[farthest] = true;
+        open.emplace_back(first, farthest);
+        open.emplace_back(farthest, last);
+    }
+    Polyline result;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (is_left[i]) result.push_back(points[i]);
+    return result;
+}
+
+}  // namespace fcn
