@@ -97,7 +97,8 @@ std::vector<bool> sharp_barriers(const MeshArrays& arrays, const CrestOptions& o
     SharpOptions sharp;
     sharp.high_angle = options.sharp_angle;
     sharp.low_angle = options.sharp_low_angle;
-    std::vector<double> angles = robust_dihedrals(arrays, sharp.low_angle, options.threads);
+    RobustDihedrals dihedrals = robust_dihedrals(arrays, sharp.low_angle, options.threads);
+    std::vector<double>& angles = dihedrals.angles;
     std::vector<int> facets;
     for (int e = 0; e < arrays.edge_count(); ++e) {
         const double angle = std::abs(angles[e]);
@@ -105,7 +106,7 @@ std::vector<bool> sharp_barriers(const MeshArrays& arrays, const CrestOptions& o
         if (!is_isolated(arrays, angles, e)) facets.push_back(e);
     }
     for (int e : facets) angles[e] = 0;
-    return sharp_edges(arrays, angles, sharp, kLeastSharpEdges);
+    return sharp_edges(arrays, dihedrals, sharp, kLeastSharpEdges);
 }
 
 /// Sharp edges as arcs, with nodes where crest lines meet them.

@@ -7,21 +7,30 @@
 
 namespace fcn {
 
-/// Signed dihedral angle of each edge as far as it stands out from noise: the plain dihedral
-/// where the surroundings are clean, the smaller of it and the angle between the mean normals of
-/// the areas left and right of the edge where they are noisy; 0 where the two disagree in sign.
-/// Edges whose plain dihedral stays below `low_angle` (radians) get their plain value.
-/// Deterministic on any number of threads.
-std::vector<double> robust_dihedrals(const MeshArrays& arrays, double low_angle, int threads = 1);
+/// Signed dihedral angles of the edges as far as they stand out from noise.
+struct RobustDihedrals {
+    std::vector<double> angles;       ///< radians, per edge
+    std::vector<bool> is_noisy_edge;  ///< the angle is that of filtered normals
+};
+
+/// The plain dihedrals where the surroundings are clean, those of filtered normals where they are
+/// noisy. Only edges above `low_angle` (radians) tell noise. Near-linear; deterministic on any
+/// number of threads.
+RobustDihedrals robust_dihedrals(const MeshArrays& arrays, double low_angle, int threads = 1);
+
+/// Do most of some thirty faces around `face` disagree with their neighbours as noise makes them?
+/// `share` scales the thresholds. Never true of parts of fewer faces.
+bool is_noisy_place(const MeshArrays& arrays, int face, double share = 1);
 
 /// Is there no edge of comparable angle beside this one that runs along it? True of a crease, not
 /// of the facets of a coarsely meshed curved surface.
 bool is_isolated(const MeshArrays& arrays, const std::vector<double>& angles, int edge);
 
-/// Hysteresis on `angles`: edges above the high angle and chains of edges above the low one that
+/// Hysteresis on the angles: edges above the high angle and chains of edges above the low one that
 /// continue them, convex and concave ones apart, not shorter than options.min_length and
-/// `min_edge_count`, without crumbs of a few edges that end inside the surface.
-std::vector<bool> sharp_edges(const MeshArrays& arrays, const std::vector<double>& angles,
+/// `min_edge_count`, without crumbs of a few edges that end inside the surface. Where there is
+/// noise, what noise does to chains is undone (mend_chains()).
+std::vector<bool> sharp_edges(const MeshArrays& arrays, const RobustDihedrals& dihedrals,
                               const SharpOptions& options, int min_edge_count = 1);
 
 }  // namespace fcn

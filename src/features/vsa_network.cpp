@@ -35,7 +35,8 @@ std::vector<bool> patch_borders(const MeshArrays& arrays, const std::vector<int>
 }
 
 /// Angles without those of facets: of edges that are not sharp and have the like beside them.
-std::vector<double> crease_angles(const MeshArrays& arrays, std::vector<double> angles) {
+RobustDihedrals crease_angles(const MeshArrays& arrays, RobustDihedrals dihedrals) {
+    std::vector<double>& angles = dihedrals.angles;
     std::vector<int> facets;
     for (int e = 0; e < arrays.edge_count(); ++e) {
         const double angle = std::abs(angles[e]);
@@ -43,10 +44,10 @@ std::vector<double> crease_angles(const MeshArrays& arrays, std::vector<double> 
         if (!is_isolated(arrays, angles, e)) facets.push_back(e);
     }
     for (int e : facets) angles[e] = 0;
-    return angles;
+    return dihedrals;
 }
 
-std::vector<bool> border_creases(const MeshArrays& arrays, const std::vector<double>& angles,
+std::vector<bool> border_creases(const MeshArrays& arrays, const RobustDihedrals& angles,
                                  const std::vector<int>& face_labels) {
     SharpOptions options;
     options.high_angle = kBorderCreaseHigh;
@@ -59,7 +60,7 @@ std::vector<bool> border_creases(const MeshArrays& arrays, const std::vector<dou
     return is_crease;
 }
 
-std::vector<bool> own_creases(const MeshArrays& arrays, const std::vector<double>& angles,
+std::vector<bool> own_creases(const MeshArrays& arrays, const RobustDihedrals& angles,
                               double crease_angle) {
     if (!(crease_angle > 0)) return std::vector<bool>(arrays.edge_count(), false);
     SharpOptions options;
@@ -73,13 +74,13 @@ std::vector<bool> own_creases(const MeshArrays& arrays, const std::vector<double
 FeatureCurveNetwork detect_vsa(const LoadedMesh& mesh, const VsaOptions& options) {
     const MeshArrays arrays = mesh_arrays(mesh.mesh, options.threads);
     VsaResult patches = segment_vsa(arrays, options);
-    const std::vector<double> angles = robust_dihedrals(arrays, kBorderCreaseLow, options.threads);
-    const std::vector<double> sharp = crease_angles(arrays, angles);
+    const RobustDihedrals angles = robust_dihedrals(arrays, kBorderCreaseLow, options.threads);
+    const RobustDihedrals sharp = crease_angles(arrays, angles);
     const std::vector<bool> is_own = own_creases(arrays, angles, options.crease_angle);
     end_patches_at_creases(arrays, is_own, patches);
     if (options.is_straightening) {
-        patches.patch_of_face = move_borders(arrays, sharp, mesh.face_labels, patches.patch_of_face,
-                                             patches.proxy_normals);
+        patches.patch_of_face = move_borders(arrays, sharp.angles, mesh.face_labels,
+                                             patches.patch_of_face, patches.proxy_normals);
     }
     std::vector<bool> is_marked = patch_borders(arrays, patches.patch_of_face);
     for (int e = 0; e < arrays.edge_count(); ++e) is_marked[e] = is_marked[e] || is_own[e];
