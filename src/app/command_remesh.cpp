@@ -23,6 +23,8 @@ struct RemeshArguments {
     std::string type = "tri";
     std::string output;
     int iterations = 10;
+    double curvature_tolerance = 0;
+    std::string with = "own";
 };
 
 int remesh(const RemeshArguments& arguments) {
@@ -35,11 +37,13 @@ int remesh(const RemeshArguments& arguments) {
     options.edge_length =
         kEdgeLengthFactor * resolve_scale(request, bounding_box(mesh.mesh).diagonal());
     options.iterations = arguments.iterations;
+    options.curvature_tolerance = arguments.curvature_tolerance;
     options.is_protecting = !arguments.network_path.empty();
     const FeatureCurveNetwork network = options.is_protecting
                                             ? read_network_for_mesh(arguments.network_path, mesh)
                                             : FeatureCurveNetwork{};
-    const RemeshResult result = remesh_with_cgal(mesh, network, options);
+    const RemeshResult result = arguments.with == "cgal" ? remesh_with_cgal(mesh, network, options)
+                                                         : remesh_triangles(mesh, network, options);
     for (const std::string& warning : result.warnings) print_warning(arguments.common, warning);
     save_mesh(arguments.output, result.mesh);
     if (arguments.output == "-") return kDone;
@@ -47,6 +51,8 @@ int remesh(const RemeshArguments& arguments) {
     if (arguments.common.is_json) {
         Json json{{"edge_length", options.edge_length},
                   {"feature_edges", result.feature_edges.size()},
+                  {"broken_segments", result.broken_segments},
+                  {"forced_faces", result.forced_faces},
                   {"triangles", quality_json(quality, options.edge_length)},
                   {"warnings", result.warnings},
                   {"files", {arguments.output}}};
@@ -81,6 +87,15 @@ Command add_remesh_command(CLI::App& program) {
         ->capture_default_str();
     parser->add_option("--iterations", arguments->iterations, "Rounds of remeshing")
         ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    parser
+        ->add_option("--curvature-tolerance", arguments->curvature_tolerance,
+                     "Edges within [L / 1.2, 1.25 L] that deviate from the surface by about this "
+                     "share of L (0: all of length L)")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    parser->add_option("--with", arguments->with, "Remesher: own, or cgal to compare with")
+        ->check(CLI::IsMember({"own", "cgal"}))
         ->capture_default_str();
     add_scale_arguments(*parser, arguments->scale);
     add_mesh_arguments(*parser, arguments->mesh);

@@ -31,7 +31,7 @@ SolverComparison comparison_row(const labeling::LabelingProblem& problem,
 RemeshResult remesh_on(const FeatureCurveNetwork& network, const MeshRecord& record, double rmin) {
     RemeshOptions options;
     options.edge_length = kEdgeLengthFactor * rmin;
-    return remesh_with_cgal(record.mesh, network, options);
+    return remesh_triangles(record.mesh, network, options);
 }
 
 void add_remeshes(ScaleRecord& scale, const MeshRecord& record, const std::string& what,

@@ -243,7 +243,7 @@ public:
         points_.sort_edges();
         collect_lines();
         build_faces();
-        build_mesh();
+        result_.points = points_.positions();
         for (std::size_t i = 0; i < paths_.size(); ++i) result_.chains.push_back(chain_of(i));
         return std::move(result_);
     }
@@ -390,17 +390,8 @@ private:
     }
 
     void add_triangle(FaceHandle source, const std::array<int, 3>& ids) {
-        triangles_.push_back(ids);
+        result_.triangles.push_back(ids);
         result_.source_face.push_back(source.idx());
-    }
-
-    void build_mesh() {
-        for (const Vec3& point : points_.positions()) result_.mesh.add_vertex(point);
-        for (const auto& t : triangles_) {
-            const FaceHandle face =
-                result_.mesh.add_face(VertexHandle(t[0]), VertexHandle(t[1]), VertexHandle(t[2]));
-            if (!face.is_valid()) throw LogicError("embedding: the refined mesh is not manifold");
-        }
     }
 
     /// The mesh edges of one straight step of a path, `a` first.
@@ -445,7 +436,6 @@ private:
     std::vector<std::vector<int>> paths_;
     std::map<int, std::set<std::pair<int, int>>> face_lines_;
     std::map<std::pair<int, int>, std::vector<int>> line_paths_;
-    std::vector<std::array<int, 3>> triangles_;
     std::array<Eigen::Vector2d, 3> corner_;
     EmbeddedMesh result_;
 };
@@ -454,7 +444,7 @@ private:
 
 std::vector<int> entangled_pieces(const EmbeddedMesh& embedded, const FeaturePieces& pieces) {
     // Who passes through each vertex; stations belong to all pieces that end there.
-    std::vector<std::vector<int>> visitors(embedded.mesh.n_vertices());
+    std::vector<std::vector<int>> visitors(embedded.points.size());
     const auto at = [&](int vertex) -> std::vector<int>& {
         return visitors[static_cast<std::size_t>(vertex)];
     };

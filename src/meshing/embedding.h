@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,8 @@ namespace fcn {
 /// A mesh refined so that feature pieces are chains of its edges. The input's vertices keep their
 /// indices; some move by at most the snapping tolerance onto a station.
 struct EmbeddedMesh {
-    Mesh mesh;
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
     std::vector<int> source_face;          ///< per face: the input face it is part of
     std::vector<int> station_vertex;       ///< per station; -1: not used by any piece
     std::vector<std::vector<int>> chains;  ///< per piece: vertices from end to end; empty: no path

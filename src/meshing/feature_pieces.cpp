@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/errors.h"
 
@@ -15,10 +16,10 @@ namespace {
 
 class PieceCutter {
 public:
-    PieceCutter(const FeatureCurveNetwork& network, double edge_length,
-                const SurfaceQueries& surface)
-        : network_(network), edge_length_(edge_length), surface_(surface) {
-        tolerance_ = 1e-6 * bounding_box(surface.mesh()).diagonal();
+    PieceCutter(const FeatureCurveNetwork& network, double edge_length, const Mesh& mesh,
+                const ReferenceSurface& reference)
+        : network_(network), edge_length_(edge_length), mesh_(mesh), reference_(reference) {
+        tolerance_ = 1e-6 * bounding_box(mesh).diagonal();
     }
 
     FeaturePieces cut() {
@@ -46,7 +47,7 @@ private:
         const int fewest = arc.is_closed() ? 3 : 1;
         const int count = std::max(
             fewest, static_cast<int>(std::min(1e6, std::round(arc.length() / edge_length_))));
-        cut_samples(arc, 0, arc.samples.size() - 1, arc.nodes, count, -1);
+        cut_samples(arc, 0, arc.samples.size() - 1, arc.nodes, count, -1, static_cast<int>(index));
     }
 
     void cut_segment(std::size_t index) {
@@ -68,7 +69,7 @@ private:
             std::max(1, static_cast<int>(std::min(1e6, std::ceil((to - from).norm() / longest))));
         cut_samples(arc, static_cast<std::size_t>(segment.first_sample),
                     static_cast<std::size_t>(segment.last_sample), segment.nodes, count,
-                    static_cast<int>(index));
+                    static_cast<int>(index), segment.arc);
     }
 
     void check_nodes(const std::array<int, 2>& nodes, const char* what, std::size_t index) const {
@@ -80,7 +81,7 @@ private:
 
     /// Cuts samples [first, last] of an arc into `count` pieces of equal arc length.
     void cut_samples(const NetworkArc& arc, std::size_t first, std::size_t last,
-                     const std::array<int, 2>& nodes, int count, int segment) {
+                     const std::array<int, 2>& nodes, int count, int segment, int arc_index) {
         std::vector<double> reached{0};  // arc length at each sample
         for (std::size_t i = first + 1; i <= last; ++i)
             reached.push_back(reached.back() +
@@ -88,7 +89,7 @@ private:
         int from = nodes[0];
         std::size_t next = 1;
         for (int k = 1; k <= count; ++k) {
-            FeaturePiece piece{from, -1, {}, segment, arc.kind != ArcKind::Feature};
+            FeaturePiece piece{from, -1, {}, segment, arc_index, arc.kind != ArcKind::Feature};
             const double end = reached.back() * k / count;
             const double slack = 1e-9 * reached.back();
             for (; next + 1 < reached.size() && reached[next] < end - slack; ++next)
@@ -108,8 +109,8 @@ private:
     }
 
     int add_station(const Vec3& near) {
-        const ClosestPoint closest = surface_.closest(near);
-        result_.stations.push_back({closest.position, closest.surface, false});
+        const SurfacePoint place = closest(near);
+        result_.stations.push_back({position(mesh_, place), place, false});
         return static_cast<int>(result_.stations.size()) - 1;
     }
 
@@ -120,17 +121,35 @@ private:
     /// The point's own place on the surface, or the closest one where it has none (imported) or
     /// its place belongs to another mesh.
     SurfacePoint on_surface(const Vec3& point, const SurfacePoint& place) const {
-        const Mesh& mesh = surface_.mesh();
         if (!point.allFinite()) throw InputError("network: a point is not finite");
-        const bool is_placed = place.face >= 0 && place.face < static_cast<int>(mesh.n_faces()) &&
+        const bool is_placed = place.face >= 0 && place.face < static_cast<int>(mesh_.n_faces()) &&
                                place.barycentric.allFinite() && place.barycentric.minCoeff() >= 0 &&
-                               (position(mesh, place) - point).norm() <= tolerance_;
-        return is_placed ? place : surface_.closest(point).surface;
+                               (position(mesh_, place) - point).norm() <= tolerance_;
+        return is_placed ? place : closest(point);
+    }
+
+    SurfacePoint closest(const Vec3& point) const {
+        const ReferencePoint near =
+            reference_.closest(point, Vec3::Zero(), std::numeric_limits<double>::max(), -1);
+        const FaceHandle face(near.face);
+        const auto v = face_vertices(mesh_, face);
+        const Vec3 &a = mesh_.point(v[0]), &b = mesh_.point(v[1]), &c = mesh_.point(v[2]);
+        const Vec3 normal = (b - a).cross(c - a);
+        const double square = normal.squaredNorm();
+        SurfacePoint result{near.face, {1, 0, 0}};
+        if (!(square > 0)) return result;
+        const double wb =
+            std::clamp(normal.dot((near.position - a).cross(c - a)) / square, 0.0, 1.0);
+        const double wc =
+            std::clamp(normal.dot((b - a).cross(near.position - a)) / square, 0.0, 1 - wb);
+        result.barycentric = {1 - wb - wc, wb, wc};
+        return result;
     }
 
     const FeatureCurveNetwork& network_;
     double edge_length_;
-    const SurfaceQueries& surface_;
+    const Mesh& mesh_;
+    const ReferenceSurface& reference_;
     double tolerance_ = 0;
     FeaturePieces result_;
 };
@@ -138,8 +157,8 @@ private:
 }  // namespace
 
 FeaturePieces cut_into_pieces(const FeatureCurveNetwork& network, double edge_length,
-                              const SurfaceQueries& surface) {
-    return PieceCutter(network, edge_length, surface).cut();
+                              const Mesh& mesh, const ReferenceSurface& reference) {
+    return PieceCutter(network, edge_length, mesh, reference).cut();
 }
 
 }  // namespace fcn

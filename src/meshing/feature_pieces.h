@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "geometry/surface_queries.h"
+#include "meshing/reference_surface.h"
 #include "network/network.h"
 
 namespace fcn {
@@ -19,7 +19,8 @@ struct FeaturePiece {
     int from = -1, to = -1;            ///< stations
     std::vector<SurfacePoint> points;  ///< strictly between the stations
     int segment = -1;                  ///< of an adapted network; -1 for a piece of an initial arc
-    bool is_rigid = false;             ///< follows the mesh's boundary or a border of labels
+    int arc = -1;
+    bool is_rigid = false;  ///< follows the mesh's boundary or a border of labels
 };
 
 struct FeaturePieces {
@@ -29,9 +30,9 @@ struct FeaturePieces {
 
 /// Cuts a network into pieces for edges of length L: every segment of an adapted network is one
 /// piece, or several equal ones where it is longer than 4/3 L; every arc of an initial network is
-/// cut into round(length / L) pieces, closed ones into three at least. Throws InputError on
-/// indices out of range.
+/// cut into round(length / L) pieces, closed ones into three at least. `reference` is the mesh's.
+/// Throws InputError on indices out of range.
 FeaturePieces cut_into_pieces(const FeatureCurveNetwork& network, double edge_length,
-                              const SurfaceQueries& surface);
+                              const Mesh& mesh, const ReferenceSurface& reference);
 
 }  // namespace fcn

@@ -19,11 +19,4 @@ struct MarkedMesh {
     std::vector<int> station_vertex;    ///< carried along: vertices of the stations, -1: none
 };
 
-/// Without the vertices, edges and faces that are marked deleted; the others renumbered in their
-/// order. `marked.mesh` must have status.
-MarkedMesh compacted(const MarkedMesh& marked);
-
-/// Requests the status that collapses need.
-void request_status(Mesh& mesh);
-
 }  // namespace fcn

@@ -14,21 +14,40 @@ inline constexpr double kEdgeLengthFactor = 1.2;
 
 struct RemeshOptions {
     double edge_length = 0;  ///< target L, mesh units, > 0
-    int iterations = 10;
+    int iterations = 10;     ///< in 1 .. 1000
     /// Protect the network's segments (or dense arcs if it has none); false: plain remeshing.
     bool is_protecting = true;
+    bool is_improving_angles = true;  ///< the phase for the smallest angles
+    /// > 0: edges are as long as lets the surface deviate from them by this share of L, within
+    /// [L / 1.2, 1.25 L]; 0: one length everywhere.
+    double curvature_tolerance = 0;
+};
+
+struct RemeshStatistics {
+    std::size_t bad_faces_before = 0, bad_faces_after = 0;  ///< under 31 degrees, not forced
+    /// Seconds of the phases.
+    double embedding = 0, coarsening = 0, iterating = 0, improving = 0;
 };
 
 struct RemeshResult {
     LoadedMesh mesh;  ///< labels travel from the input
     /// Pairs of vertex indices of `mesh` that lie on the protected network.
     std::vector<std::array<int, 2>> feature_edges;
+    /// Segments of the network (arcs if it has none) of which a piece is not a single edge.
+    std::vector<int> broken_segments;
+    /// Faces whose smallest angle lies between two protected edges and is under 30 degrees.
+    std::vector<int> forced_faces;
     std::vector<std::string> warnings;
+    RemeshStatistics statistics;
     double seconds = 0;
 };
 
-/// Isotropic remeshing through CGAL's Polygon_mesh_processing with the network embedded in the
-/// mesh and protected.
+/// Incremental isotropic remeshing with the network embedded in the mesh and protected. Topology,
+/// boundaries, labels stay. Deterministic. Throws InputError.
+RemeshResult remesh_triangles(const LoadedMesh& mesh, const FeatureCurveNetwork& network,
+                              const RemeshOptions& options);
+
+/// The same through CGAL's Polygon_mesh_processing, to compare with.
 RemeshResult remesh_with_cgal(const LoadedMesh& mesh, const FeatureCurveNetwork& network,
                               const RemeshOptions& options);
 

@@ -36,7 +36,7 @@ void check_all(double share, bool is_adapted) {
         RemeshOptions options;
         options.edge_length = 1.2 * rmin;
         options.iterations = 4;
-        const RemeshResult result = remesh_with_cgal(mesh, network, options);
+        const RemeshResult result = remesh_triangles(mesh, network, options);
         test::expect_sound(mesh, network, result);
         for (const std::string& warning : result.warnings) {
             EXPECT_EQ(warning.find("could not be embedded"), std::string::npos) << warning;

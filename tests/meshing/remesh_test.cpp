@@ -31,7 +31,7 @@ TEST(Remesh, CubeKeepsItsEdgesAsSegments) {
         ASSERT_EQ(network.arcs.size(), 12U);
         RemeshOptions options;
         options.edge_length = 1.2 * rmin;
-        const RemeshResult result = remesh_with_cgal(mesh, network, options);
+        const RemeshResult result = remesh_triangles(mesh, network, options);
         EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
         expect_sound(mesh, network, result);
         expect_segments_are_edges(network, result, options.edge_length);
@@ -68,7 +68,7 @@ TEST(Remesh, PartsSmallerThanAnEdgeSurvive) {
     options.edge_length = kLength;
     for (const bool is_protecting : {true, false}) {
         options.is_protecting = is_protecting;
-        const RemeshResult result = remesh_with_cgal(mesh, {}, options);
+        const RemeshResult result = remesh_triangles(mesh, {}, options);
         EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
         // 2 for each part: none has vanished or opened.
         EXPECT_EQ(test::euler(result.mesh.mesh), 2 * kParts);
@@ -82,7 +82,7 @@ TEST(Remesh, CoarseCubeIsRefined) {
         test::cut_evenly(test::crease_network(mesh.mesh, kCrease), 0.1);
     RemeshOptions options;
     options.edge_length = 0.12;
-    const RemeshResult result = remesh_with_cgal(mesh, network, options);
+    const RemeshResult result = remesh_triangles(mesh, network, options);
     EXPECT_TRUE(result.warnings.empty());
     expect_sound(mesh, network, result);
     expect_segments_are_edges(network, result, options.edge_length);
@@ -97,7 +97,7 @@ TEST(Remesh, ChordsOfACurvedRimBecomeSingleEdges) {
         const FeatureCurveNetwork network = test::cut_evenly(creases, rmin);
         RemeshOptions options;
         options.edge_length = 1.2 * rmin;
-        const RemeshResult result = remesh_with_cgal(mesh, network, options);
+        const RemeshResult result = remesh_triangles(mesh, network, options);
         EXPECT_TRUE(result.warnings.empty()) << "rmin " << rmin << ": " << result.warnings.front();
         expect_sound(mesh, network, result);
         expect_segments_are_edges(network, result, options.edge_length);
@@ -109,7 +109,7 @@ TEST(Remesh, InitialNetworkIsCutIntoEvenPieces) {
     const FeatureCurveNetwork network = test::crease_network(mesh.mesh, kCrease);
     RemeshOptions options;
     options.edge_length = 0.15;
-    const RemeshResult result = remesh_with_cgal(mesh, network, options);
+    const RemeshResult result = remesh_triangles(mesh, network, options);
     EXPECT_TRUE(result.warnings.empty());
     expect_sound(mesh, network, result);
     std::size_t pieces = 0;
@@ -139,7 +139,7 @@ TEST(Remesh, LongSegmentIsSplitOnce) {
     network.segments.push_back({{0, 1}, 0, 0, 1, 1, true});
     RemeshOptions options;
     options.edge_length = 0.12;
-    const RemeshResult result = remesh_with_cgal(mesh, network, options);
+    const RemeshResult result = remesh_triangles(mesh, network, options);
     EXPECT_TRUE(result.warnings.empty());
     expect_sound(mesh, network, result);
     EXPECT_EQ(result.feature_edges.size(), 2U);
@@ -151,7 +151,7 @@ TEST(Remesh, BoundaryIsKeptWithoutANetwork) {
     mesh.mesh = test::rectangle(1, 0.7, 30, 30);
     RemeshOptions options;
     options.edge_length = 0.1;
-    const RemeshResult result = remesh_with_cgal(mesh, {}, options);
+    const RemeshResult result = remesh_triangles(mesh, {}, options);
     expect_sound(mesh, {}, result);
     for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 0.7, 0), Vec3(0, 0.7, 0)})
         EXPECT_LE(nearest_vertex(result.mesh.mesh, corner), 1e-12);
@@ -173,7 +173,7 @@ TEST(Remesh, LabelsTravelAndTheirBordersStay) {
                         : FeatureCurveNetwork{};
         RemeshOptions options;
         options.edge_length = 0.12;
-        const RemeshResult result = remesh_with_cgal(mesh, network, options);
+        const RemeshResult result = remesh_triangles(mesh, network, options);
         expect_sound(mesh, network, result);
         ASSERT_EQ(result.mesh.face_labels.size(), result.mesh.mesh.n_faces());
         std::map<int, double> area;
@@ -196,7 +196,7 @@ TEST(Remesh, PlainRemeshingIgnoresTheNetwork) {
     RemeshOptions options;
     options.edge_length = 0.12;
     options.is_protecting = false;
-    const RemeshResult result = remesh_with_cgal(mesh, network, options);
+    const RemeshResult result = remesh_triangles(mesh, network, options);
     expect_sound(mesh, {}, result);
     EXPECT_TRUE(result.feature_edges.empty());
 }
@@ -209,7 +209,7 @@ TEST(Remesh, SameResultOnAnyNumberOfThreads) {
     options.edge_length = 0.12;
     const auto with = [&](std::size_t threads) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-        return remesh_with_cgal(mesh, network, options);
+        return remesh_triangles(mesh, network, options);
     };
     const RemeshResult one = with(1), many = with(4);
     EXPECT_EQ(one.mesh.hash, many.mesh.hash);
@@ -250,7 +250,7 @@ TEST(Remesh, SurvivesCurvesThatCrossTouchAndCoincide) {
         RemeshOptions options;
         options.edge_length = 0.02 + 0.02 * static_cast<double>(engine() % 8);
         options.iterations = 3;
-        const RemeshResult result = remesh_with_cgal(mesh, network, options);
+        const RemeshResult result = remesh_triangles(mesh, network, options);
         expect_sound(mesh, network, result);
         EXPECT_NEAR(area_of(result.mesh.mesh), 1, 1e-9);
         for (const std::string& warning : result.warnings) {
@@ -260,19 +260,110 @@ TEST(Remesh, SurvivesCurvesThatCrossTouchAndCoincide) {
     }
 }
 
+TEST(Remesh, PeerKeepsTheSameSegments) {
+    const LoadedMesh mesh = test::cube(17);
+    const FeatureCurveNetwork network =
+        test::cut_evenly(test::crease_network(mesh.mesh, kCrease), 0.1);
+    RemeshOptions options;
+    options.edge_length = 0.12;
+    const RemeshResult result = remesh_with_cgal(mesh, network, options);
+    EXPECT_TRUE(result.warnings.empty());
+    expect_sound(mesh, network, result);
+    expect_segments_are_edges(network, result, options.edge_length);
+}
+
+TEST(Remesh, AnglesOnCylindersAreGood) {
+    const LoadedMesh mesh = test::cylinder(0.5, 96, 24);
+    const FeatureCurveNetwork creases = test::crease_network(mesh.mesh, kCrease);
+    for (const double rmin : {0.04, 0.09, 0.2}) {
+        RemeshOptions options;
+        options.edge_length = 1.2 * rmin;
+        const FeatureCurveNetwork network = test::cut_evenly(creases, rmin);
+        const RemeshResult result = remesh_triangles(mesh, network, options);
+        EXPECT_GT(measure_triangles(result.mesh.mesh).min_angle_degrees, 30) << "rmin " << rmin;
+        EXPECT_TRUE(result.forced_faces.empty());
+        options.is_improving_angles = false;
+        const RemeshResult rough = remesh_triangles(mesh, network, options);
+        EXPECT_LE(measure_triangles(rough.mesh.mesh).min_angle_degrees,
+                  measure_triangles(result.mesh.mesh).min_angle_degrees + 1e-9);
+    }
+}
+
+TEST(Remesh, SizingByCurvatureStaysInTheInterval) {
+    // A plate with a round hump: fine on the hump, coarse on the plate.
+    LoadedMesh mesh;
+    mesh.mesh = test::rectangle(4, 4, 120, 120);
+    for (const VertexHandle v : mesh.mesh.vertices()) {
+        Vec3 p = mesh.mesh.point(v);
+        p[2] = 0.4 * std::exp(-8 * ((p[0] - 2) * (p[0] - 2) + (p[1] - 2) * (p[1] - 2)));
+        mesh.mesh.set_point(v, p);
+    }
+    RemeshOptions options;
+    options.edge_length = 0.15;
+    const std::size_t uniform = remesh_triangles(mesh, {}, options).mesh.mesh.n_faces();
+    options.curvature_tolerance = 0.02;
+    const RemeshResult sized = remesh_triangles(mesh, {}, options);
+    EXPECT_LT(sized.mesh.mesh.n_faces(), uniform);
+    double near = 0, far = 0;
+    int near_count = 0, far_count = 0;
+    for (const EdgeHandle edge : sized.mesh.mesh.edges()) {
+        if (sized.mesh.mesh.is_boundary(edge)) continue;
+        const Vec3 p = sized.mesh.mesh.calc_edge_midpoint(edge) - Vec3(2, 2, 0);
+        const double distance = std::hypot(p[0], p[1]);
+        const double length = sized.mesh.mesh.calc_edge_length(edge);
+        if (distance < 0.3) near += length, ++near_count;
+        if (distance > 1.4 && distance < 1.9) far += length, ++far_count;
+    }
+    ASSERT_GT(near_count, 0);
+    ASSERT_GT(far_count, 0);
+    EXPECT_LT(near / near_count, 0.85 * far / far_count);
+}
+
+TEST(Remesh, ForcedCornersAreListed) {
+    // A flat kite whose sharp corner has 20 degrees: no mesh of it has a larger one there.
+    LoadedMesh mesh;
+    const double half = 10.0 / 180 * 3.14159265358979323846;
+    const VertexHandle a = mesh.mesh.add_vertex({0, 0, 0});
+    const VertexHandle b = mesh.mesh.add_vertex({3, -3 * std::tan(half), 0});
+    const VertexHandle c = mesh.mesh.add_vertex({4, 0, 0});
+    const VertexHandle d = mesh.mesh.add_vertex({3, 3 * std::tan(half), 0});
+    mesh.mesh.add_face(a, b, c);
+    mesh.mesh.add_face(a, c, d);
+    RemeshOptions options;
+    options.edge_length = 0.2;
+    const RemeshResult result =
+        remesh_triangles(mesh, test::crease_network(mesh.mesh, kCrease), options);
+    ASSERT_GE(result.forced_faces.size(), 1U);
+    EXPECT_NEAR(measure_triangles(result.mesh.mesh).min_angle_degrees, 20, 1e-6);
+    std::size_t under_30 = 0;
+    for (const FaceHandle face : result.mesh.mesh.faces()) {
+        const auto v = face_vertices(result.mesh.mesh, face);
+        const auto side = [&](int i, int j) {
+            return (result.mesh.mesh.point(v[static_cast<std::size_t>(i)]) -
+                    result.mesh.mesh.point(v[static_cast<std::size_t>(j)]))
+                .norm();
+        };
+        std::array<double, 3> s{side(0, 1), side(1, 2), side(2, 0)};
+        std::sort(s.begin(), s.end());
+        under_30 +=
+            (s[1] * s[1] + s[2] * s[2] - s[0] * s[0]) / (2 * s[1] * s[2]) > 0.86602540378443865;
+    }
+    EXPECT_GE(under_30, result.forced_faces.size());
+}
+
 TEST(Remesh, ImpossibleInputIsRefused) {
     const LoadedMesh mesh = test::cube(2);
     RemeshOptions options;
-    EXPECT_THROW(remesh_with_cgal(mesh, {}, options), InputError);
+    EXPECT_THROW(remesh_triangles(mesh, {}, options), InputError);
     options.edge_length = -1;
-    EXPECT_THROW(remesh_with_cgal(mesh, {}, options), InputError);
+    EXPECT_THROW(remesh_triangles(mesh, {}, options), InputError);
     options.edge_length = 1e-9;
-    EXPECT_THROW(remesh_with_cgal(mesh, {}, options), InputError);
+    EXPECT_THROW(remesh_triangles(mesh, {}, options), InputError);
     options.edge_length = 0.3;
-    EXPECT_THROW(remesh_with_cgal({}, {}, options), InputError);
+    EXPECT_THROW(remesh_triangles({}, {}, options), InputError);
     FeatureCurveNetwork network;
     network.segments.push_back({{0, 1}, 0, 0, 1, 1, false});
-    EXPECT_THROW(remesh_with_cgal(mesh, network, options), InputError);
+    EXPECT_THROW(remesh_triangles(mesh, network, options), InputError);
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+// The first step of incremental remeshing (Botsch, Kobbelt 2004, section 3): no edge longer than
+// 4/3 of the target. Longest first, so that the halves of a long edge come before shorter edges
+// beside it, whose split would leave needles; for the same reason (and because it would never end)
+// edges beside a longer one that may not be split are left.
+#include <queue>
+
+#include "meshing/remeshing_steps.h"
+
+namespace fcn {
+namespace {
+
+struct LongEdge {
+    double square;  ///< length over target, squared
+    int halfedge;
+    bool operator<(const LongEdge& other) const {
+        return square != other.square ? square < other.square : halfedge > other.halfedge;
+    }
+};
+
+}  // namespace
+
+std::size_t split_long_edges(WorkingMesh& mesh, const EdgeTarget& target) {
+    std::priority_queue<LongEdge> queue;
+    const auto square = [&](int h) {
+        const double wanted = target.of_edge(mesh, h);
+        return (mesh.point(mesh.to(h)) - mesh.point(mesh.from(h))).squaredNorm() /
+               (wanted * wanted);
+    };
+    const auto is_beside_longer_feature = [&](int h) {
+        for (const int side : {h, mesh.twin(h)})
+            if (side >= 0)
+                for (const int other : {WorkingMesh::next(side), WorkingMesh::prev(side)})
+                    if (mesh.role(other) == EdgeRole::Feature && square(other) > square(h))
+                        return true;
+        return false;
+    };
+    const auto consider = [&](int h) {
+        if (mesh.role(h) == EdgeRole::Feature) return;
+        const double ratio = square(h);
+        if (ratio > kLongestEdge * kLongestEdge * (1 + 1e-9)) queue.push({ratio, h});
+    };
+    for (int h = 0; h < mesh.halfedge_end(); ++h)
+        if (mesh.is_first(h)) consider(h);
+    std::size_t count = 0;
+    while (!queue.empty()) {
+        const LongEdge edge = queue.top();
+        queue.pop();
+        // What is stale: edges that have been halved, and numbers that mean other edges now.
+        if (square(edge.halfedge) != edge.square || is_beside_longer_feature(edge.halfedge))
+            continue;
+        const int h = edge.halfedge;
+        const int middle = mesh.split(h, 0.5 * (mesh.point(mesh.from(h)) + mesh.point(mesh.to(h))));
+        ++count;
+        mesh.visit_star(middle, [&](int out) {
+            consider(out);
+            consider(WorkingMesh::next(out));  // its number may be new
+            const int last = WorkingMesh::prev(out);
+            if (mesh.twin(last) < 0) consider(last);
+            return true;
+        });
+    }
+    return count;
+}
+
+}  // namespace fcn

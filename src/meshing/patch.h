@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "meshing/remeshing_steps.h"
+
+namespace fcn {
+
+/// What is wrong with a triangle: 0 from the aim (34 degrees) on, growing steeply as its smallest
+/// angle falls.
+double angle_penalty(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// A piece of a mesh around a face, in which trial changes take place: two rings of faces, of which
+/// the inner one's vertices may move. Uses the mesh's journal.
+class Patch {
+public:
+    Patch(WorkingMesh& mesh, const ReferenceSurface& reference, const EdgeTarget& target);
+
+    /// Takes the faces around `face`.
+    void gather(int face);
+    /// Sum of the penalties of what is in the patch now.
+    double penalty() const;
+    /// Largest distance from the reference of the faces' centres and edges' middles.
+    double deviation() const;
+    /// Flips and moves that lower the penalty, for some rounds.
+    void relax();
+    /// Faces now in the patch, with those that changes made.
+    std::vector<int> faces() const;
+
+private:
+    bool is_inside(int face) const;
+    std::size_t flip_edges();
+    std::size_t move_vertices();
+    bool move(int v);
+    double star_penalty(int v, const Vec3& p) const;
+    bool turns_faces(int v, const Vec3& p) const;
+
+    WorkingMesh& mesh_;
+    const ReferenceSurface& reference_;
+    const EdgeTarget& target_;
+    std::vector<int> faces_;    ///< as gathered
+    std::vector<int> movable_;  ///< vertices as gathered
+    std::vector<int> stamps_;   ///< per face: the patch it was last part of
+    int stamp_ = 0;
+    int first_new_face_ = 0, first_new_vertex_ = 0;
+};
+
+}  // namespace fcn

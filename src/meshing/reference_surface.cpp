@@ -1,0 +1,191 @@
+// Closest points on one sheet of a surface. The tree halves triangles at the median of their
+// centres along the longest side of the box of centres; its nodes lie in depth-first order with
+// boxes of single precision, rounded outwards, so that two of them share a cache line. A search
+// begins with the triangle where the last one for this vertex ended: what is left to do is to prove
+// that nothing is closer. Faces that look away from the asker's normal do not count, or vertices
+// of a thin wall would swap sides (the one thing that a plain closest-point query, as in
+// geometry/surface_queries, cannot say).
+#include "meshing/reference_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/errors.h"
+
+namespace fcn {
+namespace {
+
+constexpr int kLeafSize = 4;
+constexpr int kMaxDepth = 64;
+
+double ratio(double part, double whole) {
+    return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0;
+}
+
+/// The point of the triangle a, a + ab, a + ac closest to p, by regions (Ericson 2005, 5.1.5).
+Vec3 closest_in_triangle(const Vec3& a, const Vec3& ab, const Vec3& ac, const Vec3& p) {
+    const Vec3 ap = p - a;
+    const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+    if (d1 <= 0 && d2 <= 0) return a;
+    const double bb = ab.squaredNorm(), bc = ab.dot(ac), cc = ac.squaredNorm();
+    const double d3 = d1 - bb, d4 = d2 - bc;  // the same dot products from corner b
+    if (d3 >= 0 && d4 <= d3) return a + ab;
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ratio(d1, d1 - d3) * ab;
+    const double d5 = d1 - bc, d6 = d2 - cc;
+    if (d6 >= 0 && d5 <= d6) return a + ac;
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ratio(d2, d2 - d6) * ac;
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+        return a + ab + ratio(d4 - d3, (d4 - d3) + (d5 - d6)) * (ac - ab);
+    const double sum = va + vb + vc;
+    return a + ratio(vb, sum) * ab + ratio(vc, sum) * ac;
+}
+
+float rounded_down(double x) {
+    return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+}
+float rounded_up(double x) {
+    return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+struct ReferenceSurface::Item {
+    std::array<float, 3> center;
+    int face;
+};
+
+ReferenceSurface::ReferenceSurface(const Mesh& mesh) {
+    const std::size_t count = mesh.n_faces();
+    if (count == 0) throw InputError("reference surface: the mesh has no faces");
+    std::vector<Item> items(count);
+    triangles_.resize(count);
+    for (const FaceHandle face : mesh.faces()) {
+        const auto v = face_vertices(mesh, face);
+        const Vec3 &a = mesh.point(v[0]), &b = mesh.point(v[1]), &c = mesh.point(v[2]);
+        const Vec3 center = (a + b + c) / 3;
+        auto& item = items[static_cast<std::size_t>(face.idx())];
+        item.face = face.idx();
+        for (std::size_t i = 0; i < 3; ++i)
+            item.center[i] = static_cast<float>(center[static_cast<int>(i)]);
+        triangles_[static_cast<std::size_t>(face.idx())] = {a, b - a, c - a};
+    }
+    nodes_.reserve(count);
+    build(items, 0, static_cast<int>(count));
+
+    std::vector<Triangle> ordered(count);
+    normals_.resize(count);
+    faces_.resize(count);
+    slots_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto face = static_cast<std::size_t>(items[i].face);
+        ordered[i] = triangles_[face];
+        const Vec3 cross = ordered[i].ab.cross(ordered[i].ac);
+        const double norm = cross.norm();
+        normals_[i] = norm > 0 ? Vec3(cross / norm) : Vec3(Vec3::Zero());
+        faces_[i] = items[i].face;
+        slots_[face] = static_cast<int>(i);
+    }
+    triangles_ = std::move(ordered);
+}
+
+/// Builds the subtree over items [begin, end), which it reorders; returns its node.
+int ReferenceSurface::build(std::vector<Item>& items, int begin, int end) {
+    const int index = static_cast<int>(nodes_.size());
+    nodes_.emplace_back();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Vec3 low = Vec3::Constant(kInfinity), high = -low;
+    std::array<float, 3> center_low{}, center_high{};
+    for (int i = begin; i < end; ++i) {
+        const Item& item = items[static_cast<std::size_t>(i)];
+        const Triangle& t = triangles_[static_cast<std::size_t>(item.face)];
+        for (const Vec3& p : {t.a, Vec3(t.a + t.ab), Vec3(t.a + t.ac)}) {
+            low = low.cwiseMin(p);
+            high = high.cwiseMax(p);
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            center_low[k] = i == begin ? item.center[k] : std::min(center_low[k], item.center[k]);
+            center_high[k] = i == begin ? item.center[k] : std::max(center_high[k], item.center[k]);
+        }
+    }
+    Node node;
+    for (std::size_t k = 0; k < 3; ++k) {
+        node.low[k] = rounded_down(low[static_cast<int>(k)]);
+        node.high[k] = rounded_up(high[static_cast<int>(k)]);
+    }
+    if (end - begin <= kLeafSize) {
+        node.begin = begin;
+        node.count = end - begin;
+        nodes_[static_cast<std::size_t>(index)] = node;
+        return index;
+    }
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (center_high[k] - center_low[k] > center_high[axis] - center_low[axis]) axis = k;
+    const int middle = (begin + end) / 2;
+    std::nth_element(items.begin() + begin, items.begin() + middle, items.begin() + end,
+                     [axis](const Item& one, const Item& other) {
+                         return one.center[axis] != other.center[axis]
+                                    ? one.center[axis] < other.center[axis]
+                                    : one.face < other.face;
+                     });
+    build(items, begin, middle);
+    node.begin = build(items, middle, end);
+    nodes_[static_cast<std::size_t>(index)] = node;
+    return index;
+}
+
+ReferencePoint ReferenceSurface::closest(const Vec3& point, const Vec3& normal, double reach,
+                                         int hint) const {
+    const bool is_any_sheet = normal.isZero(0);
+    ReferencePoint best;
+    double best_square = reach * reach;
+    const auto try_triangle = [&](std::size_t i) {
+        if (!is_any_sheet && !(normals_[i].dot(normal) > kSameSheet)) return;
+        const Triangle& t = triangles_[i];
+        const Vec3 nearest = closest_in_triangle(t.a, t.ab, t.ac, point);
+        const double square = (nearest - point).squaredNorm();
+        if (square >= best_square) return;
+        best_square = square;
+        best.face = faces_[i];
+        best.position = nearest;
+    };
+    if (hint >= 0) try_triangle(slot(hint));
+
+    const auto box_square = [&](const Node& node) {
+        double sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double x = point[static_cast<int>(k)];
+            const double gap = std::max({node.low[k] - x, x - node.high[k], 0.0});
+            sum += gap * gap;
+        }
+        return sum;
+    };
+    std::array<std::pair<double, int>, kMaxDepth> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {box_square(nodes_[0]), 0};
+    while (depth > 0) {
+        const auto [square, index] = stack[--depth];
+        if (square >= best_square) continue;
+        const Node& node = nodes_[static_cast<std::size_t>(index)];
+        if (node.count > 0) {
+            for (int i = 0; i < node.count; ++i)
+                try_triangle(static_cast<std::size_t>(node.begin + i));
+            continue;
+        }
+        std::pair<double, int> near{box_square(nodes_[static_cast<std::size_t>(index) + 1]),
+                                    index + 1};
+        std::pair<double, int> far{box_square(nodes_[static_cast<std::size_t>(node.begin)]),
+                                   node.begin};
+        if (far.first < near.first) std::swap(near, far);
+        if (far.first < best_square) stack[depth++] = far;
+        if (near.first < best_square) stack[depth++] = near;
+    }
+    if (best.face >= 0) best.distance = std::sqrt(best_square);
+    return best;
+}
+
+}  // namespace fcn
