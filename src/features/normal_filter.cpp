@@ -68,7 +68,7 @@ public:
         list_neighbors();
         find_patches();
         measure_noise();
-        if (!(displacement_ > 0)) return {arrays_.normals, 0};
+        if (!(displacement_ > 0)) return {arrays_.normals, 0, 0};
         for (int round = 0; round < options_.rounds; ++round) {
             if (round > 0) find_patches();
             for_each(near_, [&](int f) { guidance_[f] = guidance(f); });
@@ -76,7 +76,9 @@ public:
             for_each(noisy_, [&](int f) { next[f] = filtered(f); });
             normals_ = std::move(next);
         }
-        return {std::move(normals_), displacement_};
+        for_each(near_, [&](int f) { patches_[f] = patch(f); });
+        const double residual = lower_quartile([&](int f) { return 2 * patches_[f].spread; });
+        return {std::move(normals_), displacement_, residual};
     }
 
 private:
@@ -149,16 +151,21 @@ private:
         return best;
     }
 
-    /// How far vertices are displaced, from the spread of normals where the surface is flat.
-    void measure_noise() {
+    template <typename Value>
+    double lower_quartile(Value value) const {
         std::vector<double> values;
-        for (int f : noisy_) {
-            const Patch& patch = patches_[flattest_[f]];
-            values.push_back(std::sqrt(2 * std::max(0.0, patch.spread)) * patch.size);
-        }
+        for (int f : noisy_) values.push_back(std::max(0.0, value(f)));
         const auto quarter = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
         std::nth_element(values.begin(), quarter, values.end());
-        displacement_ = *quarter;
+        return *quarter;
+    }
+
+    /// How far vertices are displaced, from the spread of normals where the surface is flat.
+    void measure_noise() {
+        displacement_ = lower_quartile([&](int f) {
+            const Patch& patch = patches_[flattest_[f]];
+            return std::sqrt(2 * std::max(0.0, patch.spread)) * patch.size;
+        });
     }
 
     /// Standard deviation of a patch's normals by noise, in radians.
@@ -216,7 +223,7 @@ private:
 FilteredNormals filtered_normals(const MeshArrays& arrays, const std::vector<bool>& is_noisy_face,
                                  const NormalFilterOptions& options) {
     if (std::none_of(is_noisy_face.begin(), is_noisy_face.end(), [](bool is) { return is; }))
-        return {arrays.normals, 0};
+        return {arrays.normals, 0, 0};
     return NormalFilter(arrays, is_noisy_face, options).run();
 }
 

@@ -15,6 +15,7 @@ struct NormalFilterOptions {
 struct FilteredNormals {
     std::vector<Vec3> normals;
     double displacement = 0;  ///< of vertices by noise, standard deviation, mesh units
+    double residual = 0;      ///< mean squared deviation, radians^2, that is left where it is flat
 };
 
 /// Normals of faces without the noise of vertices, creases kept: those of `is_noisy_face` are

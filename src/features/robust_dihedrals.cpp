@@ -257,14 +257,14 @@ bool is_isolated(const MeshArrays& arrays, const std::vector<double>& angles, in
 }
 
 RobustDihedrals robust_dihedrals(const MeshArrays& arrays, double low_angle, int threads) {
-    RobustDihedrals result{arrays.dihedrals, std::vector<bool>(arrays.edge_count(), false)};
+    RobustDihedrals result{arrays.dihedrals, std::vector<bool>(arrays.edge_count(), false), {}, 0};
     std::vector<bool> is_candidate(arrays.edge_count());
     for (int e = 0; e < arrays.edge_count(); ++e)
         is_candidate[e] = std::abs(arrays.dihedrals[e]) >= low_angle;
     const EdgeKinds kinds =
         edge_kinds(arrays, edges_of_vertices(arrays, is_candidate), is_candidate, threads);
     const std::vector<bool> is_noisy = noisy_faces(arrays, kinds.is_noise);
-    const FilteredNormals without_noise = filtered_normals(arrays, is_noisy, {.threads = threads});
+    FilteredNormals without_noise = filtered_normals(arrays, is_noisy, {.threads = threads});
     if (without_noise.displacement < kLeastDisplacement * arrays.mean_edge_length) return result;
     std::vector<double> filtered = arrays.dihedrals;
     for (int e = 0; e < arrays.edge_count(); ++e) {
@@ -281,6 +281,8 @@ RobustDihedrals robust_dihedrals(const MeshArrays& arrays, double low_angle, int
                                ? bounded(filtered[e], mean_along(arrays, candidates, filtered, e))
                                : filtered[e];
     }
+    result.normals = std::move(without_noise.normals);
+    result.residual = without_noise.residual;
     return result;
 }
 

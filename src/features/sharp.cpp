@@ -143,8 +143,9 @@ FeatureCurveNetwork detect_sharp(const LoadedMesh& mesh, const SharpOptions& opt
     }
     const MeshArrays arrays = mesh_arrays(mesh.mesh);
     const RobustDihedrals angles = robust_dihedrals(arrays, options.low_angle);
-    FeatureCurveNetwork network =
-        trace_edges(arrays, sharp_edges(arrays, angles, options), {}, "sharp").network;
+    const EdgeNetwork edges =
+        trace_edges(arrays, sharp_edges(arrays, angles, options), {}, "sharp");
+    FeatureCurveNetwork network = straighten_noisy(arrays, angles, edges);
     set_provenance(network, mesh);
     return network;
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "features/edge_chains.h"
 #include "features/features.h"
 #include "features/mesh_arrays.h"
 
@@ -11,6 +12,8 @@ namespace fcn {
 struct RobustDihedrals {
     std::vector<double> angles;       ///< radians, per edge
     std::vector<bool> is_noisy_edge;  ///< the angle is that of filtered normals
+    std::vector<Vec3> normals;        ///< of faces, filtered where it is noisy; empty if nowhere
+    double residual = 0;              ///< of the filter, see FilteredNormals
 };
 
 /// The plain dihedrals where the surroundings are clean, those of filtered normals where they are
@@ -32,5 +35,10 @@ bool is_isolated(const MeshArrays& arrays, const std::vector<double>& angles, in
 /// noise, what noise does to chains is undone (mend_chains()).
 std::vector<bool> sharp_edges(const MeshArrays& arrays, const RobustDihedrals& dihedrals,
                               const SharpOptions& options, int min_edge_count = 1);
+
+/// Takes the zigzag of noise out of arcs along mesh edges: their samples leave noisy edges by less
+/// than an edge length. Nodes, sharp turns and arcs in clean places stay.
+FeatureCurveNetwork straighten_noisy(const MeshArrays& arrays, const RobustDihedrals& dihedrals,
+                                     const EdgeNetwork& edges);
 
 }  // namespace fcn

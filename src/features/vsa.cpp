@@ -40,6 +40,10 @@ void check_options(const MeshArrays& arrays, const VsaOptions& options) {
         throw InputError("VSA: iterations must be >= 0, got " +
                          std::to_string(options.max_iterations));
     }
+    if (!(options.negligible_error >= 0)) {
+        throw InputError("VSA: negligible error must be >= 0, got " +
+                         std::to_string(options.negligible_error));
+    }
     if (!(options.min_patch_area >= 0)) {
         throw InputError("VSA: minimum patch area must be >= 0, got " +
                          std::to_string(options.min_patch_area));
@@ -161,7 +165,7 @@ VsaResult segment_vsa(const MeshArrays& arrays, const VsaOptions& options) {
     std::vector<int> coarse_seeds;
     for (int face : seeds) coarse_seeds.push_back(coarse.item_of_item[face]);
 
-    RegionPartition partition(coarse.graph, coarse_seeds);
+    RegionPartition partition(coarse.graph, coarse_seeds, options.negligible_error);
     partition.flood(coarse_seeds);
     partition.refine(kCoarseSweeps);
     grow_best(partition, fixed_count, options);

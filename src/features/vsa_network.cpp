@@ -2,7 +2,9 @@
 // patch border takes them because both sides fit the same proxy or the crease ends inside a patch:
 // an isolated sharp crease is never missing. So patches that spill over a crease are ended there
 // (crease_patches.cpp), the other borders are moved onto weaker creases (border_cut.cpp), all are
-// traced, and the arcs are smoothed where they do not run along creases (straighten.cpp).
+// traced, and the arcs are smoothed where they do not run along creases (straighten.cpp). On a
+// noisy mesh all of this works on filtered normals, and patches end up no flatter than noise
+// allows: what noise leaves is flat.
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +23,7 @@ constexpr double kDegree = 0.017453292519943295;
 constexpr double kBorderCreaseHigh = 30 * kDegree;  // creases that attract and hold borders
 constexpr double kBorderCreaseLow = 24 * kDegree;
 constexpr double kFacetHigh = 40 * kDegree;  // a crease even where the like run beside it
+constexpr double kNoiseShare = 16;           // of what noise leaves: negligible in a patch
 constexpr int kBorderCreaseEdges = 3;
 constexpr double kOwnCreaseLow = 28 * kDegree;  // how far a crease of its own continues
 constexpr int kOwnCreaseEdges = 5;
@@ -72,9 +75,15 @@ std::vector<bool> own_creases(const MeshArrays& arrays, const RobustDihedrals& a
 }  // namespace
 
 FeatureCurveNetwork detect_vsa(const LoadedMesh& mesh, const VsaOptions& options) {
-    const MeshArrays arrays = mesh_arrays(mesh.mesh, options.threads);
-    VsaResult patches = segment_vsa(arrays, options);
+    MeshArrays arrays = mesh_arrays(mesh.mesh, options.threads);
     const RobustDihedrals angles = robust_dihedrals(arrays, kBorderCreaseLow, options.threads);
+    VsaOptions segmentation = options;
+    if (!angles.normals.empty()) {
+        arrays.normals = angles.normals;
+        segmentation.negligible_error =
+            std::max(options.negligible_error, kNoiseShare * angles.residual);
+    }
+    VsaResult patches = segment_vsa(arrays, segmentation);
     const RobustDihedrals sharp = crease_angles(arrays, angles);
     const std::vector<bool> is_own = own_creases(arrays, angles, options.crease_angle);
     end_patches_at_creases(arrays, is_own, patches);

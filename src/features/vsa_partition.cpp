@@ -23,13 +23,15 @@ constexpr int kConnectivityLimit = 32;  // items looked at to see that a region 
 
 }  // namespace
 
-RegionPartition::RegionPartition(const ItemGraph& graph, const std::vector<int>& locked_items)
+RegionPartition::RegionPartition(const ItemGraph& graph, const std::vector<int>& locked_items,
+                                 double negligible_error)
     : graph_(graph),
       region_of_item_(graph.size(), -1),
       slot_(graph.size(), -1),
       is_locked_(graph.size(), false),
       mark_(graph.size(), 0),
-      is_queued_(graph.size(), false) {
+      is_queued_(graph.size(), false),
+      negligible_error_(negligible_error) {
     for (int item : locked_items) is_locked_[item] = true;
     tolerance_ = 1e-13 * std::accumulate(graph.areas.begin(), graph.areas.end(), 0.0);
 }

@@ -14,8 +14,10 @@ namespace fcn {
 /// its own best proxy, 2 (area - |normal|). Sequential and deterministic.
 class RegionPartition {
 public:
-    /// `locked_items` never leave the region they are in.
-    explicit RegionPartition(const ItemGraph& graph, const std::vector<int>& locked_items = {});
+    /// `locked_items` never leave the region they are in; regions of at most `negligible_error` per
+    /// area are not split.
+    explicit RegionPartition(const ItemGraph& graph, const std::vector<int>& locked_items = {},
+                             double negligible_error = 1e-6);
 
     int region_count() const { return static_cast<int>(regions_.size()); }
     const std::vector<int>& region_of_item() const { return region_of_item_; }
@@ -105,6 +107,7 @@ private:
     bool is_journaling_ = false;
     int stamp_ = 0;
     double tolerance_ = 0;
+    double negligible_error_;
 };
 
 }  // namespace fcn

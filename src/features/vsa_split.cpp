@@ -14,8 +14,7 @@
 namespace fcn {
 namespace {
 
-constexpr double kNegligibleError = 1e-6;  // per area: normals agree within about 0.06 degrees
-constexpr double kStaleShare = 0.1;        // of a region's items: its split gain is found anew
+constexpr double kStaleShare = 0.1;  // of a region's items: its split gain is found anew
 constexpr int kTwoMeansIterations = 4;
 constexpr int kRefits = 3;  // floods after the first, of the better pair of halves
 
@@ -98,7 +97,7 @@ void RegionPartition::keep_locked(int r, Halves& halves) {
 RegionPartition::Halves RegionPartition::split(int r) {
     const Region& region = regions_[r];
     const double error = error_of(region.normal, region.area);
-    if (region.items.size() < 2 || error <= kNegligibleError * region.area) return {};
+    if (region.items.size() < 2 || error <= negligible_error_ * region.area) return {};
     const Vec3 mean = region.normal / region.area, own = proxy(r);
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     int furthest = region.items.front();

@@ -30,7 +30,9 @@ protected:
         }
         arrays_ = mesh_arrays(mesh_from_soup(points, triangles).mesh);
         dihedrals_ = {std::vector<double>(arrays_.edge_count(), 0),
-                      std::vector<bool>(arrays_.edge_count(), true)};
+                      std::vector<bool>(arrays_.edge_count(), true),
+                      {},
+                      0};
         is_sharp_.assign(arrays_.edge_count(), false);
     }
 

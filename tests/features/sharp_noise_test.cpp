@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "features/features.h"
+#include "features/sharp_edges.h"
 #include "geometry/models.h"
 #include "known_curves.h"
 #include "support/shared_data.h"
@@ -55,6 +56,67 @@ TEST(SharpWithNoise, SmoothSurfacesHaveNone) {
             EXPECT_TRUE(detect_sharp(noisy_mesh(part, noise, 1)).arcs.empty())
                 << name << " noise " << noise;
     }
+}
+
+TEST(SharpWithNoise, LengthsAreThoseOfTheCreases) {
+    for (const char* name : {"box", "cylinder", "steps", "gear", "ribs"}) {
+        const KnownPart part = model_part(name, 8000);
+        const double known = known_curves(part).required.total_length();
+        for (double noise : {0.05, 0.1})
+            EXPECT_NEAR(detect_sharp(noisy_mesh(part, noise, 1)).total_length(), known,
+                        0.02 * known)
+                << name << " noise " << noise;
+    }
+}
+
+TEST(SharpWithNoise, VsaOfANoisyBoxIsSixPatches) {
+    for (int faces : {6000, 20000}) {
+        const KnownPart part = model_part("box", faces);
+        const FeatureCurveNetwork found = detect_vsa(noisy_mesh(part, 0.1, 1));
+        const CurveScore s = score(found, known_curves(part), 0.5 * part.mean_edge());
+        EXPECT_EQ(s.curve_count, 12u);
+        EXPECT_GE(s.precision, 0.99);
+        EXPECT_GE(s.recall, 0.99);
+    }
+}
+
+TEST(SharpWithNoise, StraighteningKeepsCornersAndCleanPlaces) {
+    constexpr int kSize = 12;
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
+    const auto id = [](int x, int y) { return y * (kSize + 1) + x; };
+    for (int y = 0; y <= kSize; ++y) {
+        for (int x = 0; x <= kSize; ++x)
+            points.emplace_back(x, y + (y > 0 && y < kSize ? 0.2 * (x % 2) : 0), 0);
+    }
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x) {
+            triangles.push_back({id(x, y), id(x + 1, y), id(x + 1, y + 1)});
+            triangles.push_back({id(x, y), id(x + 1, y + 1), id(x, y + 1)});
+        }
+    }
+    const MeshArrays arrays = mesh_arrays(mesh_from_soup(points, triangles).mesh);
+    // Along a row that zigzags, then up a column.
+    std::vector<bool> is_marked(arrays.edge_count(), false);
+    for (int e = 0; e < arrays.edge_count(); ++e) {
+        const auto [a, b] = std::minmax(arrays.edge_vertices[e][0], arrays.edge_vertices[e][1]);
+        const int x = a % (kSize + 1), y = a / (kSize + 1);
+        is_marked[e] = (b == a + 1 && y == 6 && x > 0 && x < 6) ||
+                       (b == a + kSize + 1 && x == 6 && y >= 6 && y < kSize - 1);
+    }
+    const EdgeNetwork edges = trace_edges(arrays, is_marked, {}, "sharp");
+    ASSERT_EQ(edges.network.arcs.size(), 1u);
+    RobustDihedrals dihedrals{arrays.dihedrals, std::vector<bool>(arrays.edge_count(), true),
+                              arrays.normals, 0};
+    const NetworkArc arc = straighten_noisy(arrays, dihedrals, edges).arcs[0];
+    EXPECT_LT(arc.length(), edges.network.arcs[0].length() - 0.03);
+    double to_corner = 1;
+    for (const ArcSample& sample : arc.samples)
+        to_corner = std::min(to_corner, (sample.position - arrays.points[id(6, 6)]).norm());
+    EXPECT_EQ(to_corner, 0);
+    dihedrals.is_noisy_edge.assign(arrays.edge_count(), false);
+    const NetworkArc same = straighten_noisy(arrays, dihedrals, edges).arcs[0];
+    EXPECT_EQ(same.length(), edges.network.arcs[0].length());
 }
 
 TEST(SharpWithNoise, CadPartsKeepTheirCurves) {
