@@ -1,8 +1,8 @@
 // Sharp edges by hysteresis on the dihedral angle: an edge above the high angle seeds a chain,
 // edges above the low angle continue it (the two thresholds of Canny's edge detector, on mesh
-// edges). A weak edge continues a chain where it goes on in about the same direction, or where no
-// comparable edge runs beside it: the facets of a coarsely meshed hole meet its rim at right
-// angles and are no part of the rim, but a single weak crease may begin at a sharp corner.
+// edges). A weak edge continues a chain where no comparable edge runs beside it: facets of coarsely
+// meshed holes and fillets are no creases, though they may meet one. On noisy edges, beside which
+// anything may run, it is enough to go on in about the same direction.
 //
 // The angles are those of robust_dihedrals, which noise does not pass for creases; what noise does
 // to chains all the same is undone by mend_chains.
@@ -39,8 +39,9 @@ bool has_sign(double angle, SharpSign sign) {
 }
 
 /// Seeds and what continues them.
-std::vector<bool> grow_chains(const MeshArrays& arrays, const std::vector<double>& angles,
+std::vector<bool> grow_chains(const MeshArrays& arrays, const RobustDihedrals& dihedrals,
                               const SharpOptions& options) {
+    const std::vector<double>& angles = dihedrals.angles;
     std::vector<bool> is_candidate(arrays.edge_count()), is_sharp(arrays.edge_count(), false);
     std::vector<int> queue;
     for (int e = 0; e < arrays.edge_count(); ++e) {
@@ -56,9 +57,9 @@ std::vector<bool> grow_chains(const MeshArrays& arrays, const std::vector<double
         for (int v : arrays.edge_vertices[edge]) {
             for (const int* e = at_vertex.begin(v); e != at_vertex.end(v); ++e) {
                 if (is_sharp[*e] || angles[*e] * angles[edge] < 0) continue;
-                if (!is_continuing(arrays, edge, *e, v) && !is_isolated(arrays, angles, *e)) {
-                    continue;
-                }
+                const bool is_straight =
+                    dihedrals.is_noisy_edge[*e] && is_continuing(arrays, edge, *e, v);
+                if (!is_straight && !is_isolated(arrays, angles, *e)) continue;
                 is_sharp[*e] = true;
                 queue.push_back(*e);
             }
@@ -122,7 +123,7 @@ void drop_short_chains(const MeshArrays& arrays, const std::vector<double>& angl
 
 std::vector<bool> sharp_edges(const MeshArrays& arrays, const RobustDihedrals& dihedrals,
                               const SharpOptions& options, int min_edge_count) {
-    std::vector<bool> is_sharp = grow_chains(arrays, dihedrals.angles, options);
+    std::vector<bool> is_sharp = grow_chains(arrays, dihedrals, options);
     mend_chains(arrays, dihedrals, options.high_angle, is_sharp);
     drop_short_chains(arrays, dihedrals.angles, options.min_length, min_edge_count, is_sharp);
     return is_sharp;
