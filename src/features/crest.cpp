@@ -90,10 +90,15 @@ CrestGraph lines_of_kind(const MeshArrays& arrays, const LocalFitter& fitter,
     return graph;
 }
 
+struct Barriers {
+    std::vector<bool> is_sharp;
+    RobustDihedrals dihedrals;
+};
+
 /// The creases. Edges with the like beside them are facets of a rounded crest, which is found by
 /// fits.
-std::vector<bool> sharp_barriers(const MeshArrays& arrays, const CrestOptions& options) {
-    if (!options.is_sharp_first) return std::vector<bool>(arrays.edge_count(), false);
+Barriers sharp_barriers(const MeshArrays& arrays, const CrestOptions& options) {
+    if (!options.is_sharp_first) return {std::vector<bool>(arrays.edge_count(), false), {}};
     SharpOptions sharp;
     sharp.high_angle = options.sharp_angle;
     sharp.low_angle = options.sharp_low_angle;
@@ -106,11 +111,13 @@ std::vector<bool> sharp_barriers(const MeshArrays& arrays, const CrestOptions& o
         if (!is_isolated(arrays, angles, e)) facets.push_back(e);
     }
     for (int e : facets) angles[e] = 0;
-    return sharp_edges(arrays, dihedrals, sharp, kLeastSharpEdges);
+    std::vector<bool> is_sharp = sharp_edges(arrays, dihedrals, sharp, kLeastSharpEdges);
+    return {std::move(is_sharp), std::move(dihedrals)};
 }
 
-/// Sharp edges as arcs, with nodes where crest lines meet them.
-EdgeNetwork sharp_network(const MeshArrays& arrays, const std::vector<bool>& is_sharp,
+/// Sharp edges as arcs, with nodes where crest lines meet them. What crest lines end at stays when
+/// arcs are straightened.
+EdgeNetwork sharp_network(const MeshArrays& arrays, const Barriers& barriers,
                           const std::vector<CrestGraph>& graphs, const LocalFitter& fitter) {
     std::vector<bool> is_corner(arrays.vertex_count(), false);
     for (const CrestGraph& graph : graphs) {
@@ -121,7 +128,13 @@ EdgeNetwork sharp_network(const MeshArrays& arrays, const std::vector<bool>& is_
             }
         }
     }
-    return trace_edges(arrays, is_sharp, {}, "sharp", is_corner);
+    EdgeNetwork edges = trace_edges(arrays, barriers.is_sharp, {}, "sharp", is_corner);
+    RobustDihedrals dihedrals = barriers.dihedrals;
+    for (int e = 0; e < arrays.edge_count() && !dihedrals.normals.empty(); ++e)
+        for (int v : arrays.edge_vertices[e])
+            if (is_corner[v]) dihedrals.is_noisy_edge[e] = false;
+    edges.network = straighten_noisy(arrays, dihedrals, edges);
+    return edges;
 }
 
 }  // namespace
@@ -129,8 +142,8 @@ EdgeNetwork sharp_network(const MeshArrays& arrays, const std::vector<bool>& is_
 FeatureCurveNetwork detect_crest(const LoadedMesh& mesh, const CrestOptions& options) {
     check(options);
     const MeshArrays arrays = mesh_arrays(mesh.mesh, options.threads);
-    const std::vector<bool> is_sharp = sharp_barriers(arrays, options);
-    const LocalFitter fitter(arrays, is_sharp);
+    const Barriers barriers = sharp_barriers(arrays, options);
+    const LocalFitter fitter(arrays, barriers.is_sharp);
     LocalFitOptions fit{
         .rings = options.rings, .radius = options.radius, .threads = options.threads};
     if (!(fit.rings > 0) && !(fit.radius > 0))
@@ -143,7 +156,7 @@ FeatureCurveNetwork detect_crest(const LoadedMesh& mesh, const CrestOptions& opt
         graphs.push_back(lines_of_kind(arrays, fitter, fits, is_ravine, options));
         sources.push_back(is_ravine ? "crest-ravine" : "crest-ridge");
     }
-    EdgeNetwork edges = sharp_network(arrays, is_sharp, graphs, fitter);
+    EdgeNetwork edges = sharp_network(arrays, barriers, graphs, fitter);
     FeatureCurveNetwork network = std::move(edges.network);
     std::vector<int> node_of_vertex(arrays.vertex_count(), -1);
     for (std::size_t n = 0; n < edges.node_vertices.size(); ++n)

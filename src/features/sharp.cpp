@@ -1,8 +1,8 @@
 // Sharp edges by hysteresis on the dihedral angle: an edge above the high angle seeds a chain,
 // edges above the low angle continue it (the two thresholds of Canny's edge detector, on mesh
 // edges). A weak edge continues a chain where no comparable edge runs beside it: facets of coarsely
-// meshed holes and fillets are no creases, though they may meet one. On noisy edges, beside which
-// anything may run, it is enough to go on in about the same direction.
+// meshed holes and fillets are no creases, though they may meet one. On noisy edges that are not
+// quite weak, beside which anything may run, it is enough to go on in about the same direction.
 //
 // The angles are those of robust_dihedrals, which noise does not pass for creases; what noise does
 // to chains all the same is undone by mend_chains.
@@ -51,14 +51,16 @@ std::vector<bool> grow_chains(const MeshArrays& arrays, const RobustDihedrals& d
         is_sharp[e] = true;
         queue.push_back(e);
     }
+    const double middle = (2 * options.low_angle + options.high_angle) / 3;
     const IndexRows at_vertex = edges_of_vertices(arrays, is_candidate);
     for (std::size_t i = 0; i < queue.size(); ++i) {
         const int edge = queue[i];
         for (int v : arrays.edge_vertices[edge]) {
             for (const int* e = at_vertex.begin(v); e != at_vertex.end(v); ++e) {
                 if (is_sharp[*e] || angles[*e] * angles[edge] < 0) continue;
-                const bool is_straight =
-                    dihedrals.is_noisy_edge[*e] && is_continuing(arrays, edge, *e, v);
+                const bool is_straight = dihedrals.is_noisy_edge[*e] &&
+                                         std::abs(angles[*e]) >= middle &&
+                                         is_continuing(arrays, edge, *e, v);
                 if (!is_straight && !is_isolated(arrays, angles, *e)) continue;
                 is_sharp[*e] = true;
                 queue.push_back(*e);
