@@ -49,6 +49,18 @@ def detector_pictures(program, mesh, folder):
             print(f"{path.relative_to(ROOT)}: {pictures[0][1]}")
 
 
+def viewer_picture(program, mesh, folder):
+    """The report's 3D view, if it and a browser are there (scripts/setup_viewer.sh)."""
+    path = folder / "viewer.png"
+    with tempfile.TemporaryDirectory() as scratch:
+        subprocess.run([program, "run", mesh, "-o", scratch, "--solvers", "none", "--quiet",
+                        "--method", "vsa", "--patches", "150", "--scales", "5%"], check=True,
+                       stdout=subprocess.DEVNULL)
+        subprocess.run(["node", ROOT / "viewer/screenshot.mjs", f"{scratch}/report.html", path],
+                       check=True)
+    print(f"{path.relative_to(ROOT)}: the report's 3D view")
+
+
 def crest_picture(program, folder):
     """Crest lines need a smooth surface."""
     camel = ROOT / "build/meshes/camel.off"
@@ -74,6 +86,7 @@ def main():
         path = folder / f"fandisk_{name}.png"
         path.write_bytes(png)
         print(f"{path.relative_to(ROOT)}: {text}")
+    viewer_picture(program, mesh, folder)
     detector_pictures(program, mesh, folder)
     crest_picture(program, folder)
 

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "app/adaptation_arguments.h"
@@ -8,6 +9,7 @@
 #include "app/inputs.h"
 #include "app/json_summary.h"
 #include "app/outputs.h"
+#include "geometry/mesh_curves.h"
 #include "meshing/measure.h"
 #include "meshing/remesh.h"
 
@@ -21,7 +23,7 @@ struct RemeshArguments {
     std::string input;
     std::string network_path;
     std::string type = "tri";
-    std::string output;
+    std::vector<std::string> outputs;
     int iterations = 10;
     double curvature_tolerance = 0;
     std::string with = "own";
@@ -30,7 +32,11 @@ struct RemeshArguments {
 int remesh(const RemeshArguments& arguments) {
     if (arguments.type == "quad")
         throw UsageError("--type quad is not available in this version; use --type tri");
-    prepare_output(arguments.output, OutputKind::Mesh, arguments.common);
+    for (const std::string& output : arguments.outputs) {
+        prepare_output(output, OutputKind::MeshWithCurves, arguments.common);
+        if (holds_curves_alone(output) && arguments.network_path.empty())
+            throw UsageError(output + ": holds curves alone, and there are none without --network");
+    }
     const ScaleRequest request = arguments.scale.request();
     const LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
     RemeshOptions options;
@@ -42,11 +48,12 @@ int remesh(const RemeshArguments& arguments) {
     const FeatureCurveNetwork network = options.is_protecting
                                             ? read_network_for_mesh(arguments.network_path, mesh)
                                             : FeatureCurveNetwork{};
-    const RemeshResult result = arguments.with == "cgal" ? remesh_with_cgal(mesh, network, options)
-                                                         : remesh_triangles(mesh, network, options);
+    RemeshResult result = arguments.with == "cgal" ? remesh_with_cgal(mesh, network, options)
+                                                   : remesh_triangles(mesh, network, options);
     for (const std::string& warning : result.warnings) print_warning(arguments.common, warning);
-    save_mesh(arguments.output, result.mesh);
-    if (arguments.output == "-") return kDone;
+    result.mesh.curves = chain_vertex_pairs(result.feature_edges);
+    for (const std::string& output : arguments.outputs) save_mesh(output, result.mesh);
+    if (std::ranges::find(arguments.outputs, "-") != arguments.outputs.end()) return kDone;
     const TriangleQuality quality = measure_triangles(result.mesh.mesh);
     if (arguments.common.is_json) {
         Json json{{"edge_length", options.edge_length},
@@ -55,16 +62,17 @@ int remesh(const RemeshArguments& arguments) {
                   {"forced_faces", result.forced_faces},
                   {"triangles", quality_json(quality, options.edge_length)},
                   {"warnings", result.warnings},
-                  {"files", {arguments.output}}};
+                  {"files", arguments.outputs}};
         if (!arguments.common.is_timeless) json["seconds"] = result.seconds;
         print_json(json);
         return kDone;
     }
     fmt::print(
         "{} vertices, {} triangles of edge length {:.5g}; smallest angle {:.2f} degrees, "
-        "{:.2f} % under 15, {:.2f} % under 30\nwrote {}\n",
+        "{:.2f} % under 15, {:.2f} % under 30\n",
         quality.vertices, quality.faces, options.edge_length, quality.min_angle_degrees,
-        100 * quality.share_under_15, 100 * quality.share_under_30, arguments.output);
+        100 * quality.share_under_15, 100 * quality.share_under_30);
+    for (const std::string& output : arguments.outputs) fmt::print("wrote {}\n", output);
     return kDone;
 }
 
@@ -79,8 +87,11 @@ Command add_remesh_command(CLI::App& program) {
     parser->add_option("--network", arguments->network_path,
                        "Network whose curves stay as they are; without one nothing is protected");
     parser
-        ->add_option("-o,--output", arguments->output,
-                     "Mesh file by extension (- for OFF on standard output)")
+        ->add_option("-o,--output", arguments->outputs,
+                     "Mesh file by extension (- for OFF on standard output), several with commas; "
+                     "OBJ, PLY, Medit, gmsh and VTP also hold the network's curves, .sharp and .fl "
+                     "these alone")
+        ->delimiter(',')
         ->required();
     parser->add_option("--type", arguments->type, "Elements: tri (quad: not in this version)")
         ->check(CLI::IsMember({"tri", "quad"}))
@@ -102,7 +113,9 @@ Command add_remesh_command(CLI::App& program) {
     add_common_arguments(*parser, arguments->common);
     parser->footer(
         "Example:\n"
-        "  scalefcn remesh part.stl --network part_2pct.fcn.json --scale 2% -o part_2pct.obj");
+        "  scalefcn remesh part.stl --network part_2pct.fcn.json --scale 2% -o part_2pct.obj\n"
+        "  scalefcn remesh part.stl --network part_2pct.fcn.json --scale 2% -o "
+        "part_2pct.mesh,part_2pct.vtp");
     return {parser, [arguments] { return remesh(*arguments); }};
 }
 

@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kMeshExtensions{".off", ".obj",  ".ply",
                                                           ".stl", ".mesh", ".msh"};
+/// Written with the curves along a mesh's edges, or of these alone; not read as meshes.
+constexpr std::array<std::string_view, 3> kCurveExtensions{".vtp", ".sharp", ".fl"};
 constexpr std::array<std::string_view, 9> kNetworkExtensions{
     ".fcn.json", ".obj", ".ply", ".vtp", ".mesh", ".msh", ".sharp", ".fl", ".polylines.txt"};
 constexpr std::array<std::string_view, 6> kProblemExtensions{".lab", ".mps", ".lp",
@@ -112,6 +114,14 @@ bool has_mesh_extension(const std::filesystem::path& path) {
     return is_one_of(plain_extension(path), kMeshExtensions);
 }
 
+bool has_mesh_output_extension(const std::filesystem::path& path) {
+    return has_mesh_extension(path) || is_one_of(plain_extension(path), kCurveExtensions);
+}
+
+bool holds_curves_alone(const std::filesystem::path& path) {
+    return is_one_of(plain_extension(path), std::array<std::string_view, 2>{".sharp", ".fl"});
+}
+
 bool has_network_extension(const std::filesystem::path& path) {
     std::string name = path.filename().string();
     if (name.ends_with(".gz")) name.resize(name.size() - 3);
@@ -120,6 +130,10 @@ bool has_network_extension(const std::filesystem::path& path) {
 }
 
 std::string mesh_extensions() { return fmt::format("{}", fmt::join(kMeshExtensions, " ")); }
+
+std::string mesh_output_extensions() {
+    return fmt::format("{} {}", mesh_extensions(), fmt::join(kCurveExtensions, " "));
+}
 
 std::string network_extensions() { return fmt::format("{}", fmt::join(kNetworkExtensions, " ")); }
 

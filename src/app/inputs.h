@@ -35,10 +35,14 @@ bool is_lossless_network(const std::string& path);
 std::vector<std::string> expand_mesh_inputs(const std::vector<std::string>& inputs);
 
 bool has_mesh_extension(const std::filesystem::path& path);
+/// Also those that hold the curves along a mesh's edges: .vtp, .sharp, .fl.
+bool has_mesh_output_extension(const std::filesystem::path& path);
+bool holds_curves_alone(const std::filesystem::path& path);  ///< .sharp, .fl
 bool has_network_extension(const std::filesystem::path& path);
 bool has_problem_extension(const std::filesystem::path& path);
 /// For messages: ".off .obj ...".
 std::string mesh_extensions();
+std::string mesh_output_extensions();
 std::string network_extensions();
 
 /// The extension without a final ".gz", lower case: ".off", ".json".

@@ -14,6 +14,7 @@ namespace {
 
 bool has_format(const std::string& path, OutputKind kind) {
     if (kind == OutputKind::Mesh) return has_mesh_extension(path);
+    if (kind == OutputKind::MeshWithCurves) return has_mesh_output_extension(path);
     return kind == OutputKind::Other || has_network_extension(path);
 }
 
@@ -54,10 +55,11 @@ void prepare_output(const std::string& path, OutputKind kind, const CommonArgume
         return;
     }
     if (!has_format(path, kind))
-        throw UsageError(
-            fmt::format("{}: no {} format goes by this name (known: {})", path,
-                        kind == OutputKind::Mesh ? "mesh" : "network",
-                        kind == OutputKind::Mesh ? mesh_extensions() : network_extensions()));
+        throw UsageError(fmt::format("{}: no {} format goes by this name (known: {})", path,
+                                     kind == OutputKind::Network ? "network" : "mesh",
+                                     kind == OutputKind::Network ? network_extensions()
+                                     : kind == OutputKind::Mesh  ? mesh_extensions()
+                                                                 : mesh_output_extensions()));
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     if (!folder.empty()) std::filesystem::create_directories(folder);
 }

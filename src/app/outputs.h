@@ -10,7 +10,7 @@ namespace fcn::app {
 
 /// What can be known before the work begins: UsageError when standard output is to carry both the
 /// file and --json, or when no format goes by this name. Makes the folder it will lie in.
-enum class OutputKind { Mesh, Network, Other };
+enum class OutputKind { Mesh, MeshWithCurves, Network, Other };
 void prepare_output(const std::string& path, OutputKind kind, const CommonArguments& common);
 
 /// Atomic; "-" is standard output.

@@ -7,6 +7,7 @@
 
 #include "app/inputs.h"
 #include "app/interrupt.h"
+#include "geometry/mesh_curves.h"
 #include "labeling/errors.h"
 #include "labeling_mip/mip_solvers.h"
 
@@ -41,6 +42,7 @@ void add_remeshes(ScaleRecord& scale, const MeshRecord& record, const std::strin
     RemeshResult adapted = remesh_on(scale.adaptation.network, record, scale.rmin);
     scale.remesh_quality = measure_triangles(adapted.mesh.mesh);
     scale.remesh = std::move(adapted.mesh);
+    scale.remesh.curves = chain_vertex_pairs(adapted.feature_edges);
     scale.has_remesh = true;
     auto& warnings = scale.adaptation.report.warnings;
     warnings.insert(warnings.end(), adapted.warnings.begin(), adapted.warnings.end());

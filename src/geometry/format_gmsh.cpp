@@ -7,6 +7,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "geometry/mesh_curves.h"
 #include "geometry/mesh_formats.h"
 #include "geometry/text_cursor.h"
 #include "geometry/text_writer.h"
@@ -281,13 +282,17 @@ std::string write_gmsh(const LoadedMesh& loaded) {
     for (const auto vertex : mesh.vertices()) {
         out << vertex.idx() + 1 << ' ' << mesh.point(vertex) << '\n';
     }
-    out << "$EndNodes\n$Elements\n" << mesh.n_faces() << '\n';
+    out << "$EndNodes\n$Elements\n" << mesh.n_faces() + curve_edge_count(loaded) << '\n';
     for (const auto face : mesh.faces()) {
         const auto [a, b, c] = face_vertices(mesh, face);
         const int label = label_of(loaded, face.idx());
         out << face.idx() + 1 << " 2 2 " << label << ' ' << (label > 0 ? label : 1) << ' '
             << a.idx() + 1 << ' ' << b.idx() + 1 << ' ' << c.idx() + 1 << '\n';
     }
+    std::size_t element = mesh.n_faces();
+    for_each_curve_edge(loaded, [&](std::size_t curve, int from, int to) {
+        out << ++element << " 1 2 0 " << curve + 1 << ' ' << from + 1 << ' ' << to + 1 << '\n';
+    });
     out << "$EndElements\n";
     return out.take();
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "geometry/mesh_curves.h"
 #include "geometry/mesh_formats.h"
 #include "geometry/text_cursor.h"
 #include "geometry/text_writer.h"
@@ -38,6 +39,28 @@ void read_polygons(TextCursor& in, PolygonSoup& soup, int corner_count) {
         if (label != static_cast<int>(label)) in.fail("a face reference is out of range");
         soup.labels.push_back(static_cast<int>(label));
     }
+}
+
+/// Edges with the number of their curve, from 1, and those inside the surface as ridges. Not as
+/// RequiredEdges: a remesher that reads them keeps the curves, but may move along them, and readers
+/// that do not know the word give up.
+void write_curves(TextWriter& out, const LoadedMesh& loaded) {
+    std::vector<int> ridges;
+    int count = 0;
+    out << "Edges\n" << curve_edge_count(loaded) << '\n';
+    for_each_curve_edge(loaded, [&](std::size_t curve, int from, int to) {
+        out << from + 1 << ' ' << to + 1 << ' ' << curve + 1 << '\n';
+        ++count;
+        const HalfedgeHandle halfedge =
+            loaded.mesh.find_halfedge(VertexHandle(from), VertexHandle(to));
+        if (halfedge.is_valid() && !loaded.mesh.is_boundary(loaded.mesh.edge_handle(halfedge)))
+            ridges.push_back(count);
+    });
+    if (!ridges.empty()) out << "Ridges\n" << ridges.size() << '\n';
+    for (const int ridge : ridges) out << ridge << '\n';
+    const std::vector<int> corners = curve_corners(loaded);
+    if (!corners.empty()) out << "Corners\n" << corners.size() << '\n';
+    for (const int corner : corners) out << corner + 1 << '\n';
 }
 
 }  // namespace
@@ -84,6 +107,7 @@ std::string write_medit(const LoadedMesh& loaded) {
         out << a.idx() + 1 << ' ' << b.idx() + 1 << ' ' << c.idx() + 1 << ' '
             << label_of(loaded, face.idx()) << '\n';
     }
+    if (!loaded.curves.empty()) write_curves(out, loaded);
     out << "End\n";
     return out.take();
 }

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "geometry/mesh_curves.h"
 #include "geometry/mesh_formats.h"
 #include "geometry/text_cursor.h"
 #include "geometry/text_writer.h"
@@ -105,6 +106,9 @@ std::string write_obj(const LoadedMesh& loaded) {
         const auto [a, b, c] = face_vertices(mesh, face);
         out << "f " << a.idx() + 1 << ' ' << b.idx() + 1 << ' ' << c.idx() + 1 << '\n';
     }
+    for_each_curve_edge(loaded, [&](std::size_t, int from, int to) {
+        out << "l " << from + 1 << ' ' << to + 1 << '\n';
+    });
     return out.take();
 }
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/mesh_curves.h"
 #include "geometry/mesh_formats.h"
 #include "geometry/text_cursor.h"
 #include "geometry/text_writer.h"
@@ -423,6 +424,10 @@ std::string write_ply(const LoadedMesh& loaded) {
         << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
         << mesh.n_faces() << "\nproperty list uchar int vertex_indices\n";
     if (!loaded.face_labels.empty()) out << "property int label\n";
+    const std::size_t edge_count = curve_edge_count(loaded);
+    if (edge_count > 0)
+        out << "element edge " << edge_count
+            << "\nproperty int vertex1\nproperty int vertex2\nproperty int arc\n";
     out << "end_header\n";
     for (const auto vertex : mesh.vertices()) {
         for (double coordinate : mesh.point(vertex)) append_little_endian(out, coordinate);
@@ -436,6 +441,10 @@ std::string write_ply(const LoadedMesh& loaded) {
             append_little_endian(out, static_cast<std::int32_t>(label_of(loaded, face.idx())));
         }
     }
+    for_each_curve_edge(loaded, [&](std::size_t curve, int from, int to) {
+        for (const int number : {from, to, static_cast<int>(curve)})
+            append_little_endian(out, static_cast<std::int32_t>(number));
+    });
     return out.take();
 }
 

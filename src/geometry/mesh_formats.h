@@ -26,6 +26,7 @@ std::string write_ply(const LoadedMesh& mesh);
 std::string write_stl(const LoadedMesh& mesh);
 std::string write_medit(const LoadedMesh& mesh);
 std::string write_gmsh(const LoadedMesh& mesh);
+std::string write_vtp(const LoadedMesh& mesh);  ///< not read
 
 /// The faces ordered by label, ties by index; all faces in order when there are no labels.
 std::vector<int> faces_by_label(const LoadedMesh& mesh);

@@ -9,6 +9,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/file_content.h"
+#include "geometry/mesh_curves.h"
 #include "geometry/mesh_formats.h"
 #include "geometry/text_cursor.h"
 
@@ -23,7 +24,7 @@ using Reader = PolygonSoup (*)(std::string_view, const std::string&);
 struct Format {
     std::string_view name;
     std::string_view extension;
-    Reader read;
+    Reader read;  ///< null: written only
     std::string (*write)(const LoadedMesh&);
 };
 
@@ -34,11 +35,17 @@ constexpr std::array kFormats{
     Format{"STL", ".stl", read_stl_binary, write_stl},
     Format{"Medit", ".mesh", read_medit, write_medit},
     Format{"gmsh", ".msh", read_gmsh, write_gmsh},
+    Format{"VTP", ".vtp", nullptr, write_vtp},
+    Format{"sharp", ".sharp", nullptr,
+           [](const LoadedMesh& mesh) { return write_sharp_curves(mesh.mesh, mesh.curves); }},
+    Format{"fl", ".fl", nullptr,
+           [](const LoadedMesh& mesh) { return write_fl_curves(mesh.curves); }},
 };
 
-std::string known_extensions() {
+std::string known_extensions(bool is_reading = true) {
     std::string text;
     for (const Format& format : kFormats) {
+        if (is_reading && format.read == nullptr) continue;
         if (!text.empty()) text.push_back(' ');
         text.append(format.extension);
     }
@@ -160,7 +167,7 @@ PolygonSoup read_soup(std::string_view content, const std::string& source,
                              known_extensions());
         }
         const Format* format = format_of_extension(extension);
-        if (format == nullptr) {
+        if (format == nullptr || format->read == nullptr) {
             throw InputError(source + ": unknown mesh format, neither content nor extension is " +
                              "known; readable are " + known_extensions());
         }
@@ -202,7 +209,8 @@ LoadedMesh read_mesh(const fs::path& path, const ReadOptions& options) {
 void write_mesh(const fs::path& path, const LoadedMesh& mesh) {
     const Format* format = format_of_extension(extension_of(path));
     if (format == nullptr) {
-        throw InputError(path.string() + ": unknown mesh format; known are " + known_extensions());
+        throw InputError(path.string() + ": unknown mesh format; known are " +
+                         known_extensions(false));
     }
     write_file_atomically(path, format->write(mesh));
 }

@@ -30,6 +30,9 @@ struct LoadedMesh {
     Mesh mesh;
     std::vector<int> face_labels;          ///< per face; empty when the file has none
     std::vector<std::string> label_names;  ///< by label; may be shorter than the largest label
+    /// Curves along edges, as vertices in order; a closed one repeats its first. Written where the
+    /// format has a place for them, never read.
+    std::vector<std::vector<int>> curves;
     RepairReport repairs;
     std::string name;        ///< file name without folder and extension
     std::string units;       ///< as the file states ("mm"), usually empty
@@ -48,8 +51,9 @@ struct ReadOptions {
 LoadedMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 LoadedMesh read_mesh(std::istream& in, const std::string& name, const ReadOptions& options = {});
 
-/// Writes by extension (.off .obj .ply .stl .mesh .msh, and .gz of each) to a temporary name,
-/// then renames. Labels are written where the format has a place for them.
+/// Writes by extension (.off .obj .ply .stl .mesh .msh .vtp, and .gz of each) to a temporary name,
+/// then renames. Labels and curves are written where the format has a place for them. .sharp and
+/// .fl hold the curves alone, as edges and vertices of the mesh.
 void write_mesh(const std::filesystem::path& path, const LoadedMesh& mesh);
 
 /// Writes `content` to `path` through a temporary file in the same folder and a rename, so that

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "geometry/mesh_curves.h"
 #include "geometry/text_cursor.h"
-#include "geometry/text_writer.h"
 #include "network/mesh_edges.h"
 #include "network/network_formats.h"
 
@@ -46,16 +46,7 @@ EdgeSoup read_fl(std::string_view content, const std::string& source, const Mesh
 }
 
 std::string write_fl(const WrittenNetwork& network, const Mesh& mesh, const std::string& target) {
-    MeshEdgePaths paths(mesh, target);
-    TextWriter out;
-    out << network.arcs.size() << '\n';
-    for (std::size_t a = 0; a < network.arcs.size(); ++a) {
-        const std::vector<VertexHandle> path = paths.vertices_along(network, a);
-        out << path.size();
-        for (VertexHandle vertex : path) out << ' ' << vertex.idx();
-        out << '\n';
-    }
-    return out.take();
+    return write_fl_curves(MeshEdgePaths(mesh, target).all(network));
 }
 
 }  // namespace fcn

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "geometry/mesh_curves.h"
 #include "geometry/text_cursor.h"
-#include "geometry/text_writer.h"
 #include "network/mesh_edges.h"
 #include "network/network_formats.h"
 
@@ -44,30 +44,7 @@ EdgeSoup read_sharp(std::string_view content, const std::string& source, const M
 
 std::string write_sharp(const WrittenNetwork& network, const Mesh& mesh,
                         const std::string& target) {
-    MeshEdgePaths paths(mesh, target);
-    std::vector<bool> is_taken(mesh.n_edges(), false);
-    std::size_t count = 0;
-    TextWriter lines;
-    for (std::size_t a = 0; a < network.arcs.size(); ++a) {
-        const std::vector<VertexHandle> path = paths.vertices_along(network, a);
-        for (std::size_t k = 1; k < path.size(); ++k) {
-            const EdgeHandle edge = mesh.edge_handle(mesh.find_halfedge(path[k - 1], path[k]));
-            if (is_taken[edge.idx()]) continue;
-            is_taken[edge.idx()] = true;
-            const int type = dihedral_angle(mesh, edge) < 0 ? 0 : 1;
-            for (unsigned side = 0; side < 2; ++side) {
-                const HalfedgeHandle halfedge = mesh.halfedge_handle(edge, side);
-                const FaceHandle face = mesh.face_handle(halfedge);
-                if (!face.is_valid()) continue;
-                const std::array<VertexHandle, 3> corners = face_vertices(mesh, face);
-                const auto from =
-                    std::find(corners.begin(), corners.end(), mesh.from_vertex_handle(halfedge));
-                lines << type << ',' << face.idx() << ',' << from - corners.begin() << '\n';
-                ++count;
-            }
-        }
-    }
-    return std::to_string(count) + "\n" + lines.take();
+    return write_sharp_curves(mesh, MeshEdgePaths(mesh, target).all(network));
 }
 
 }  // namespace fcn

@@ -89,4 +89,14 @@ std::vector<VertexHandle> MeshEdgePaths::vertices_along(const WrittenNetwork& ne
     return path;
 }
 
+std::vector<std::vector<int>> MeshEdgePaths::all(const WrittenNetwork& network) {
+    std::vector<std::vector<int>> paths;
+    for (std::size_t arc = 0; arc < network.arcs.size(); ++arc) {
+        paths.emplace_back();
+        for (const VertexHandle vertex : vertices_along(network, arc))
+            paths.back().push_back(vertex.idx());
+    }
+    return paths;
+}
+
 }  // namespace fcn

@@ -32,6 +32,8 @@ public:
     /// Consecutive vertices are joined by an edge; a closed arc repeats its first. Points inside
     /// edges on the way are passed over. Throws InputError where the polyline leaves the edges.
     std::vector<VertexHandle> vertices_along(const WrittenNetwork& network, std::size_t arc);
+    /// The vertices of every arc.
+    std::vector<std::vector<int>> all(const WrittenNetwork& network);
 
 private:
     MeshPlace locate(const WrittenNetwork& network, int point);

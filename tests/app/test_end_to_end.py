@@ -5,7 +5,7 @@ import pathlib
 import re
 import unittest
 
-from scalefcn_process import BAD_INPUT, VIOLATION, ProgramTest
+from scalefcn_process import BAD_INPUT, USAGE, VIOLATION, ProgramTest
 
 SCALE_FILES = {"initial.fcn.json", "adapted.fcn.json", "initial.obj", "network.obj", "remesh.obj"}
 
@@ -47,6 +47,13 @@ class StepByStep(ProgramTest):
         measure = self.succeed_json("measure", "remesh.obj", "ribs.off")
         self.assertEqual(measure["triangles"]["faces"], remesh["triangles"]["faces"])
         self.assertLess(measure["distance"]["hausdorff_over_diagonal"], 0.08)
+
+    def test_files_of_curves_alone_need_a_network(self):
+        self.model("box", "--resolution", "0.3")
+        result = self.call("remesh", "box.off", "--scale", "20%", "-o", "a.obj,a.sharp")
+        self.assertEqual(result.returncode, USAGE)
+        self.assertIn("a.sharp", result.stderr)
+        self.assertFalse((self.folder / "a.obj").exists())
 
     def test_pins_are_kept_and_dropped(self):
         """Ribs closer than the scale: most are dropped, and pins decide which."""

@@ -14,7 +14,8 @@ import unittest
 ROOT = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else pathlib.Path.cwd()
 SCRIPTS = ["run", "test", ".ci/run", "scripts/setup.sh", "scripts/setup_solvers.sh",
            "scripts/fetch_meshes.sh", "scripts/list_problems.sh", "experiments/reproduce",
-           "scripts/setup_experiments.sh", "scripts/setup_viewer.sh", "experiments/cluster/try_slurm.sh"]
+           "scripts/setup_experiments.sh", "scripts/setup_viewer.sh",
+           "scripts/setup_readers.sh", "scripts/make_docs.sh", "experiments/cluster/try_slurm.sh"]
 
 
 def call(*arguments):

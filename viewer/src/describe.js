@@ -6,7 +6,7 @@ export function number(value, digits = 4) {
 }
 
 export function percent(share, digits = 1) {
-  return share === null || share === undefined ? "–" : `${(100 * share).toFixed(digits)} %`;
+  return share === null || share === undefined ? "–" : `${(100 * share).toFixed(digits)}\u00a0%`;
 }
 
 export function degrees(radians) {
@@ -108,5 +108,5 @@ export function meshFacts(mesh, isInput) {
       `under 15°: ${percent(mesh.quality.under_15, 2)}`,
       `under 30°: ${percent(mesh.quality.under_30, 2)}`,
     );
-  return facts.join(" · ");
+  return facts.map((fact) => fact.replaceAll(" ", "\u00a0")).join(" · ");
 }

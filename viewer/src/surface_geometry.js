@@ -1,6 +1,7 @@
 // Triangles with what shading needs: every triangle has corners of its own, so that a normal may
 // break at a crease, edges can be drawn in the shader and each triangle has one quality.
 import { BufferAttribute, BufferGeometry, Sphere, Vector3 } from "three";
+import { smallestAngles } from "./surface_angles.js";
 
 const creaseCosine = Math.cos((35 * Math.PI) / 180);
 
@@ -24,9 +25,13 @@ export function surfaceGeometry(points, corners) {
 function faceNormals(p) {
   const normals = new Float32Array(p.length / 3);
   for (let f = 0; f < p.length / 9; ++f) {
-    const [a, b, c] = [9 * f, 9 * f + 3, 9 * f + 6];
-    const [ux, uy, uz] = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
-    const [vx, vy, vz] = [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
+    const a = 9 * f;
+    const ux = p[a + 3] - p[a];
+    const uy = p[a + 4] - p[a + 1];
+    const uz = p[a + 5] - p[a + 2];
+    const vx = p[a + 6] - p[a];
+    const vy = p[a + 7] - p[a + 1];
+    const vz = p[a + 8] - p[a + 2];
     normals[3 * f] = uy * vz - uz * vy;
     normals[3 * f + 1] = uz * vx - ux * vz;
     normals[3 * f + 2] = ux * vy - uy * vx;
@@ -54,8 +59,12 @@ function cornerNormals(normals, corners, vertexCount) {
   const result = new Int8Array(3 * corners.length);
   for (let corner = 0; corner < corners.length; ++corner) {
     const own = Math.floor(corner / 3);
-    const [nx, ny, nz] = normals.subarray(3 * own, 3 * own + 3);
-    let [x, y, z] = [0, 0, 0];
+    const nx = normals[3 * own];
+    const ny = normals[3 * own + 1];
+    const nz = normals[3 * own + 2];
+    let x = 0;
+    let y = 0;
+    let z = 0;
     for (let k = start[corners[corner]]; k < start[corners[corner] + 1]; ++k) {
       const f = list[k];
       const dot = nx * normals[3 * f] + ny * normals[3 * f + 1] + nz * normals[3 * f + 2];
@@ -70,29 +79,4 @@ function cornerNormals(normals, corners, vertexCount) {
     result[3 * corner + 2] = Math.round((127 * z) / length);
   }
   return result;
-}
-
-// Degrees, the same at the three corners of a triangle.
-function smallestAngles(p) {
-  const angles = new Float32Array(p.length / 3);
-  for (let f = 0; f < p.length / 9; ++f) {
-    const at = (k) => [p[9 * f + 3 * k], p[9 * f + 3 * k + 1], p[9 * f + 3 * k + 2]];
-    let smallest = 180;
-    for (let k = 0; k < 3; ++k)
-      smallest = Math.min(smallest, angleAt(at(k), at((k + 1) % 3), at((k + 2) % 3)));
-    angles.fill(smallest, 3 * f, 3 * f + 3);
-  }
-  return angles;
-}
-
-export function angleAt(a, b, c) {
-  const u = b.map((x, i) => x - a[i]);
-  const v = c.map((x, i) => x - a[i]);
-  const cross = Math.hypot(
-    u[1] * v[2] - u[2] * v[1],
-    u[2] * v[0] - u[0] * v[2],
-    u[0] * v[1] - u[1] * v[0],
-  );
-  const dot = u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-  return (Math.atan2(cross, dot) * 180) / Math.PI;
 }

@@ -48,8 +48,8 @@ test("the curve that lost most comes first", () => {
 test("numbers", () => {
   assert.equal(number(0.0123456), "0.01235");
   assert.equal(number(null), "–");
-  assert.equal(percent(0.5), "50.0 %");
-  assert.ok(meshFacts({ faces: 1200, shown: 300, quality: null }, true).includes("300 shown"));
+  assert.equal(percent(0.5), "50.0\u00a0%");
+  assert.ok(meshFacts({ faces: 1200, shown: 300, quality: null }, true).includes("300\u00a0shown"));
 });
 
 test("layers differ in lightness or hue for every kind of colour vision", () => {
