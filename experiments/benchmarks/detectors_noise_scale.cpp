@@ -1,14 +1,15 @@
 // Detectors on the same parts at several resolutions and levels of noise:
 //   detectors_noise_scale [--detectors sharp,vsa,crest] [--noise 0,0.1,0.2] [--faces 10000,100000]
 //                         [--threads N] PART ...
-// A part is the name of a built-in model or a mesh NAME.off with its curves in NAME.cadedges.txt.
-// Models are made with about as many faces as asked for; meshes are refined by Loop subdivision,
-// creases along their curves, until they have at least two thirds of that. Noise displaces every
-// coordinate of every vertex, in mean edges. Prints a table: precision is the share of the found
-// length within half a mean edge of the part's curves, recall the share of its curves of 40 degrees
-// and more that have a found one that close; `length` is relative to those curves', `agreement`
-// with the network of the resolution before: the smaller share of either's length within half an
-// edge of the coarser mesh of the other. Seconds are processor seconds.
+// A part is the name of a built-in model or a mesh file, with its curves in NAME.cadedges.txt;
+// without that file its sharp edges are taken for them, which says how much of them noise takes
+// away. Models are made with about as many faces as asked for; meshes are refined by Loop
+// subdivision, creases along their curves, until they have at least two thirds of that. Noise
+// displaces every coordinate of every vertex, in mean edges. Prints a table: precision is the share
+// of the found length within half a mean edge of the part's curves, recall the share of its curves
+// of 40 degrees and more that have a found one that close; `length` is relative to those curves',
+// `agreement` with the network of the resolution before: the smaller share of either's length
+// within half an edge of the coarser mesh of the other. Seconds are processor seconds.
 
 #include <cstdio>
 #include <ctime>

@@ -11,6 +11,7 @@
 #include "features/edge_chains.h"
 #include "features/mesh_arrays.h"
 #include "features/polyline_tree.h"
+#include "features/sharp_edges.h"
 #include "geometry/errors.h"
 #include "geometry/models.h"
 
@@ -36,6 +37,16 @@ KnownPart part_of_mesh(const LoadedMesh& mesh) {
         part.triangles.push_back({a.idx(), b.idx(), c.idx()});
     }
     return part;
+}
+
+void mark_creases(KnownPart& part, const LoadedMesh& mesh) {
+    const MeshArrays arrays = mesh_arrays(mesh.mesh);
+    for (int e = 0; e < arrays.edge_count(); ++e) {
+        const double angle = std::abs(arrays.dihedrals[e]);
+        if (angle < kAllowedAngle) continue;
+        if (angle >= kRequiredAngle || is_isolated(arrays, arrays.dihedrals, e))
+            part.curve_edges.push_back(arrays.edge_vertices[e]);
+    }
 }
 
 FeatureCurveNetwork network_of_edges(const MeshArrays& arrays, const std::vector<Edge>& edges,
@@ -106,10 +117,7 @@ KnownPart model_part(const std::string& name, int face_count) {
         mesh = make_model(name, options);
     }
     KnownPart part = part_of_mesh(mesh);
-    const MeshArrays arrays = mesh_arrays(mesh.mesh);
-    for (int e = 0; e < arrays.edge_count(); ++e)
-        if (std::abs(arrays.dihedrals[e]) >= kAllowedAngle)
-            part.curve_edges.push_back(arrays.edge_vertices[e]);
+    mark_creases(part, mesh);
     return part;
 }
 
@@ -118,9 +126,13 @@ KnownPart cad_part(const std::filesystem::path& mesh_file) {
     KnownPart part = part_of_mesh(mesh);
     std::filesystem::path file = mesh_file;
     file.replace_extension(".cadedges.txt");
+    if (!std::filesystem::exists(file)) {
+        mark_creases(part, mesh);
+        return part;
+    }
     std::ifstream in(file);
     if (!in || !mesh.repairs.is_clean())
-        throw InputError(file.string() + ": not there, or the mesh needs repair");
+        throw InputError(file.string() + ": cannot be read, or the mesh needs repair");
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
         if (line.empty() || line[0] == '#') continue;

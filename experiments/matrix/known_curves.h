@@ -21,13 +21,14 @@ struct KnownPart {
     double mean_edge() const;
 };
 
-/// A built-in model of about `face_count` faces. Its curves are the edges of 18 degrees and more:
-/// the models consist of flat and smooth pieces whose curves the mesh follows. The superellipse
-/// torus has its crests for curves instead, which no mesh edges follow: see crest_circles().
+/// A built-in model of about `face_count` faces. Its curves are the edges of 40 degrees and more,
+/// and of 18 and more that have no comparable edge beside them: the models consist of flat and
+/// smooth pieces whose curves the mesh follows. The superellipse torus has its crests for curves
+/// instead, which no mesh edges follow: see crest_circles().
 KnownPart model_part(const std::string& name, int face_count);
 
-/// NAME.off with the curves of NAME.cadedges.txt beside it (lines of two vertices and a tag).
-/// Throws InputError if the file does not fit the mesh.
+/// A mesh with the curves of NAME.cadedges.txt beside it (lines of two vertices and a tag); without
+/// such a file they are marked as in a model. Throws InputError if the file does not fit the mesh.
 KnownPart cad_part(const std::filesystem::path& mesh_file);
 
 /// One step of Loop subdivision, curves by the rules for creases: four times the faces of a smooth

@@ -29,6 +29,8 @@ namespace {
 constexpr double kTwigRadii = 1;        // shorter dead ends at forks are none
 constexpr int kLeastSharpEdges = 6;     // in a chain; shorter ones may be noise on a crest
 constexpr double kCertainAngle = 1.22;  // radians (70 degrees): sharp whatever runs beside it
+constexpr double kCleanRings = 3;       // wider fits mean noise
+constexpr double kSpacing = 0.2;        // of samples, in radii of the fits, where there is noise
 constexpr double kHopelessShare = 0.4;  // of thresholds, before gaps are bridged
 
 void check(const CrestOptions& options) {
@@ -161,9 +163,11 @@ FeatureCurveNetwork detect_crest(const LoadedMesh& mesh, const CrestOptions& opt
     std::vector<int> node_of_vertex(arrays.vertex_count(), -1);
     for (std::size_t n = 0; n < edges.node_vertices.size(); ++n)
         node_of_vertex[edges.node_vertices[n]] = static_cast<int>(n);
+    const double spacing = fit.rings > kCleanRings ? kSpacing : 0;
     int next_line = 0;
     for (std::size_t g = 0; g < graphs.size(); ++g)
-        next_line = add_crest_arcs(graphs[g], node_of_vertex, sources[g], next_line, network);
+        next_line =
+            add_crest_arcs(graphs[g], node_of_vertex, sources[g], next_line, spacing, network);
     set_provenance(network, mesh);
     return network;
 }
