@@ -1,13 +1,12 @@
 // A mesh in few bytes. Faces are written in the order of a walk from neighbour to neighbour and
 // vertices in the order in which the faces need them first, so that most corners are "the next new
 // vertex" or one met shortly before: each is written as the distance to the next new one, as Chun
-// proposed for meshes on the web (WebGL Models: End-to-End, 2012). Meshes that are too large are
-// decimated by quadric error metrics (Garland and Heckbert 1997, through OpenMesh).
+// proposed for meshes on the web (WebGL Models: End-to-End, 2012).
 #include "report/viewer_mesh.h"
 
-#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
-#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <algorithm>
+
+#include "report/viewer_decimation.h"
 
 namespace fcn {
 namespace {
@@ -19,16 +18,28 @@ struct OrderedMesh {
 
 class FaceWalk {
 public:
-    explicit FaceWalk(const Mesh& mesh)
-        : mesh_(mesh), number_(mesh.n_vertices(), -1), is_seen_(mesh.n_faces(), false) {}
+    explicit FaceWalk(const TriangleArrays& mesh)
+        : mesh_(mesh),
+          number_(mesh.points.size(), -1),
+          is_seen_(mesh.triangles.size(), false),
+          first_(mesh.points.size() + 1, 0),
+          faces_(3 * mesh.triangles.size()) {
+        for (const auto& triangle : mesh.triangles)
+            for (const int vertex : triangle) ++first_[static_cast<std::size_t>(vertex) + 1];
+        for (std::size_t v = 0; v < mesh.points.size(); ++v) first_[v + 1] += first_[v];
+        std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+        for (std::size_t face = 0; face < mesh.triangles.size(); ++face)
+            for (const int vertex : mesh.triangles[face])
+                faces_[next[static_cast<std::size_t>(vertex)]++] = face;
+    }
 
     OrderedMesh run() {
-        for (const FaceHandle seed : mesh_.faces()) {
-            if (is_seen_[index(seed)]) continue;
-            is_seen_[index(seed)] = true;
+        for (std::size_t seed = 0; seed < mesh_.triangles.size(); ++seed) {
+            if (is_seen_[seed]) continue;
+            is_seen_[seed] = true;
             open_.push_back(seed);
             while (!open_.empty()) {
-                const FaceHandle face = open_.back();
+                const std::size_t face = open_.back();
                 open_.pop_back();
                 visit(face);
             }
@@ -37,52 +48,39 @@ public:
     }
 
 private:
-    static std::size_t index(FaceHandle face) { return static_cast<std::size_t>(face.idx()); }
-
-    void visit(FaceHandle face) {
-        for (const VertexHandle vertex : face_vertices(mesh_, face)) {
+    void visit(std::size_t face) {
+        for (const int vertex : mesh_.triangles[face]) {
             const int next = static_cast<int>(result_.points.size());
-            int& number = number_[static_cast<std::size_t>(vertex.idx())];
+            int& number = number_[static_cast<std::size_t>(vertex)];
             if (number < 0) {
                 number = next;
-                result_.points.push_back(mesh_.point(vertex));
+                result_.points.push_back(mesh_.points[static_cast<std::size_t>(vertex)]);
                 result_.corners.push_back(0);
             } else {
                 result_.corners.push_back(static_cast<std::uint32_t>(next - number));
             }
         }
-        for (const FaceHandle neighbour : mesh_.ff_range(face)) {
-            if (is_seen_[index(neighbour)]) continue;
-            is_seen_[index(neighbour)] = true;
-            open_.push_back(neighbour);
+        for (std::size_t k = 0; k < 3; ++k)
+            open_neighbours(mesh_.triangles[face][k], mesh_.triangles[face][(k + 1) % 3]);
+    }
+
+    void open_neighbours(int from, int to) {
+        const auto v = static_cast<std::size_t>(from);
+        for (std::size_t i = first_[v]; i < first_[v + 1]; ++i) {
+            const std::size_t face = faces_[i];
+            if (is_seen_[face] || std::ranges::count(mesh_.triangles[face], to) == 0) continue;
+            is_seen_[face] = true;
+            open_.push_back(face);
         }
     }
 
-    const Mesh& mesh_;
+    const TriangleArrays& mesh_;
     std::vector<int> number_;
     std::vector<bool> is_seen_;
-    std::vector<FaceHandle> open_;
+    std::vector<std::size_t> first_, faces_;  ///< the faces of vertex v: from first_[v] on
+    std::vector<std::size_t> open_;
     OrderedMesh result_;
 };
-
-Mesh decimated(Mesh mesh, std::size_t face_limit) {
-    mesh.request_vertex_status();
-    mesh.request_edge_status();
-    mesh.request_halfedge_status();
-    mesh.request_face_status();
-    mesh.request_face_normals();
-    mesh.update_face_normals();
-    using Decimater = OpenMesh::Decimater::DecimaterT<Mesh>;
-    Decimater decimater(mesh);
-    OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadric;
-    OpenMesh::Decimater::ModNormalFlippingT<Mesh>::Handle flipping;
-    decimater.add(quadric);
-    decimater.add(flipping);
-    decimater.module(quadric).unset_max_err();
-    if (decimater.initialize()) decimater.decimate_to_faces(0, face_limit);
-    mesh.garbage_collection();
-    return mesh;
-}
 
 nlohmann::json quality_json(const TriangleQuality& quality) {
     return {{"min_angle", short_number(quality.min_angle_degrees)},
@@ -97,9 +95,8 @@ nlohmann::json quality_json(const TriangleQuality& quality) {
 nlohmann::json add_mesh(BlockWriter& block, const Mesh& mesh, const std::string& name,
                         const PointGrid& grid, std::size_t face_limit,
                         const TriangleQuality* quality) {
-    const OrderedMesh ordered = mesh.n_faces() > face_limit
-                                    ? FaceWalk(decimated(mesh, face_limit)).run()
-                                    : FaceWalk(mesh).run();
+    const TriangleArrays shown = decimate_for_display(triangle_arrays(mesh), face_limit);
+    const OrderedMesh ordered = FaceWalk(shown).run();
     nlohmann::json header{{"name", name},
                           {"faces", mesh.n_faces()},
                           {"shown", ordered.corners.size() / 3},

@@ -15,6 +15,7 @@
 #include "report/drawn_curves.h"
 #include "report/html.h"
 #include "report/report_viewer.h"
+#include "report/viewer_decimation.h"
 #include "report/viewer_mesh.h"
 
 namespace fcn {
@@ -164,6 +165,49 @@ TEST(ViewerData, LargeMeshesAreDecimatedNearTheirSurface) {
     for (const auto& triangle : triangles)
         for (const Vec3& corner : triangle)
             EXPECT_LT(surface.closest(corner).distance, 0.01 * bounding_box(mesh).diagonal());
+}
+
+TEST(ViewerDecimation, CreasesAndCornersStaySharp) {
+    ModelOptions options;
+    options.resolution = 0.02;
+    const Mesh box = make_model("box", options).mesh;
+    const TriangleArrays all = triangle_arrays(box);
+    const TriangleArrays few = decimate_for_display(all, all.triangles.size() / 5);
+    EXPECT_LE(few.triangles.size(), all.triangles.size() / 5);
+    EXPECT_GT(few.triangles.size(), all.triangles.size() / 20);
+    const BoundingBox bounds = bounding_box(box);
+    for (int corner = 0; corner < 8; ++corner) {
+        Vec3 place;
+        for (int axis = 0; axis < 3; ++axis)
+            place[axis] = (corner >> axis & 1) == 1 ? bounds.max[axis] : bounds.min[axis];
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Vec3& point : few.points) nearest = std::min(nearest, (point - place).norm());
+        EXPECT_LT(nearest, 0.1 * options.resolution);
+    }
+    const SurfaceQueries surface(box);
+    for (const auto& triangle : few.triangles)
+        for (const int vertex : triangle)
+            EXPECT_LT(surface.closest(few.points[static_cast<std::size_t>(vertex)]).distance,
+                      0.1 * options.resolution);
+}
+
+TEST(ViewerDecimation, AnyMeshKeepsToAnyLimit) {
+    const unsigned seed = 13;
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    const TriangleArrays soup = triangle_arrays(random_soup(random, 300));
+    TriangleArrays spot = soup, line = soup;
+    for (Vec3& point : spot.points) point = Vec3(1, 2, 3);
+    for (Vec3& point : line.points) point = Vec3(point[0], 0, 0);
+    for (const TriangleArrays& mesh : {soup, spot, line})
+        for (const std::size_t limit : {0U, 1U, 7U, 100U, 299U, 300U, 1000U}) {
+            const TriangleArrays few = decimate_for_display(mesh, limit);
+            EXPECT_LE(few.triangles.size(), limit);
+            if (limit >= 300) {
+                EXPECT_EQ(few.triangles.size(), 300U);
+            }
+            for (const Vec3& point : few.points) EXPECT_TRUE(point.allFinite());
+        }
 }
 
 /// A network of two arcs of one curve and an arc of none.
