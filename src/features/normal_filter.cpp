@@ -9,7 +9,8 @@
 // difference of two normals in it, which one wild face decides. The noise is measured, as a length,
 // since it is the vertices that are displaced: the flatter quarter of the places says how far. All
 // thresholds follow it, by the size of the faces at hand, so that ribs and holes of small faces
-// beside large ones are kept, and a face on a rib that is narrower than a patch guides itself. Few
+// beside large ones are kept, and a face on a rib that is narrower than a patch guides itself;
+// slivers, whose normals noise turns anywhere, count less and follow those around them. Few
 // rounds: more make stairs of fillets. Wider patches were worse, on fine meshes as well.
 
 #include "features/normal_filter.h"
@@ -28,6 +29,9 @@ constexpr double kAgreement = 2.5;      // of a face with its guidance, in stand
 constexpr double kFlatSpreads = 2.5;    // of noise, at most, in a patch that guides
 constexpr double kRangeNoises = 2.5;    // standard deviation of the weights by normals, in noise
 constexpr double kHeightShare = 0.75;   // of a face: displacement over it is its normal's
+constexpr double kSliver = 0.25;        // height over longest edge
+constexpr double kHalfWeight = 3;       // height over displacement at which a normal counts half
+constexpr double kBlind = 2;            // the same, up to which a face takes any guidance
 constexpr double kDistanceEdges = 1.5;  // standard deviation of the weights by distance
 
 struct Patch {
@@ -48,6 +52,7 @@ public:
           patches_(arrays.face_count()),
           flattest_(arrays.face_count()),
           guidance_(arrays.normals),
+          weights_(arrays.areas),
           centroids_(arrays.face_count()),
           arena_(std::max(1, options.threads)) {
         for (int f = 0; f < arrays.face_count(); ++f) {
@@ -68,6 +73,8 @@ public:
         list_neighbors();
         find_patches();
         measure_noise();
+        weigh_faces();
+        find_patches();
         if (!(displacement_ > 0)) return {arrays_.normals, 0, 0};
         for (int round = 0; round < options_.rounds; ++round) {
             if (round > 0) find_patches();
@@ -127,17 +134,18 @@ private:
 
     Patch patch(int face) const {
         Patch result;
-        double area = 0;
+        double area = 0, weight = 0;
         int count = 0;
         for_touching(face, [&](int g) {
             ++count;
-            result.mean += arrays_.areas[g] * normals_[g];
+            result.mean += weights_[g] * normals_[g];
             area += arrays_.areas[g];
+            weight += weights_[g];
         });
         result.size = std::sqrt(area / count);
         const double norm = result.mean.norm();
         if (!(norm > 0)) return result;
-        result.spread = 1 - norm / area;
+        result.spread = 1 - norm / weight;
         result.mean /= norm;
         return result;
     }
@@ -168,6 +176,25 @@ private:
         });
     }
 
+    double longest_edge(int face) const {
+        double longest = 1e-300;
+        for (int e : arrays_.face_edges[face]) longest = std::max(longest, arrays_.edge_length(e));
+        return longest;
+    }
+
+    double height(int face) const { return 2 * arrays_.areas[face] / longest_edge(face); }
+
+    bool is_sliver(int face) const { return height(face) < kSliver * longest_edge(face); }
+
+    /// Areas, less for slivers so thin that their normals say little.
+    void weigh_faces() {
+        for (int f : near_) {
+            if (!is_sliver(f)) continue;
+            const double certainty = kHeightShare * height(f) / std::max(1e-300, displacement_);
+            weights_[f] *= 1 / (1 + std::pow(kHalfWeight / std::max(1e-150, certainty), 2));
+        }
+    }
+
     /// Standard deviation of a patch's normals by noise, in radians.
     double noise_of(const Patch& patch) const {
         return displacement_ / std::max(1e-300, patch.size);
@@ -177,12 +204,11 @@ private:
     /// it; its own on ribs narrower than any patch.
     Vec3 guidance(int face) const {
         const Patch& patch = patches_[flattest_[face]];
+        if (is_sliver(face) && height(face) <= kBlind * displacement_) return patch.mean;
         if (patch.spread > kFlatSpreads * 0.5 * std::pow(noise_of(patch), 2)) return normals_[face];
-        double longest = 0;
-        for (int e : arrays_.face_edges[face]) longest = std::max(longest, arrays_.edge_length(e));
-        const double height = 2 * arrays_.areas[face] / std::max(1e-300, longest);
         const double deviation = (patch.mean - normals_[face]).norm();
-        const bool is_agreeing = deviation * kHeightShare * height <= kAgreement * displacement_;
+        const bool is_agreeing =
+            deviation * kHeightShare * height(face) <= kAgreement * displacement_;
         return is_agreeing ? patch.mean : normals_[face];
     }
 
@@ -196,7 +222,7 @@ private:
         for_touching(face, [&](int g) {
             const double distance = (centroids_[g] - centroids_[face]).squaredNorm();
             const double difference = (guidance_[g] - guidance_[face]).squaredNorm();
-            sum += arrays_.areas[g] * std::exp(-by_distance * distance - by_normal * difference) *
+            sum += weights_[g] * std::exp(-by_distance * distance - by_normal * difference) *
                    normals_[g];
         });
         const double norm = sum.norm();
@@ -214,6 +240,7 @@ private:
     std::vector<int> flattest_;  ///< patch with this face
     double displacement_ = 0;    ///< of vertices by noise
     std::vector<Vec3> guidance_;
+    std::vector<double> weights_;  ///< of normals
     std::vector<Vec3> centroids_;
     tbb::task_arena arena_;
 };
