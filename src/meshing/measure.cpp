@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "geometry/errors.h"
-#include "geometry/surface_queries.h"
+#include "meshing/reference_surface.h"
 
 namespace fcn {
 namespace {
@@ -52,6 +52,7 @@ std::array<Vec3, 3> corners(const Mesh& mesh, FaceHandle face) {
 struct Tally {
     double max = 0;
     double weighted_sum = 0;  ///< distance times area
+    double squares = 0;       ///< of angles, times area
     double weight = 0;
     std::size_t samples = 0;
 };
@@ -61,7 +62,25 @@ int piece_count(double length, double spacing) {
     return std::max(1, static_cast<int>(std::ceil(length / spacing)));
 }
 
-void sample_face(const Mesh& mesh, FaceHandle face, double spacing, const SurfaceQueries& target,
+/// The centroids of the n^2 equal parts of a triangle.
+template <class Visit>
+void for_centroids(const std::array<Vec3, 3>& corner, int n, const Visit& visit) {
+    const auto at = [&](double u, double v) {
+        visit(Vec3(corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0])));
+    };
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; i + j < n; ++j) {
+            at((i + 1.0 / 3) / n, (j + 1.0 / 3) / n);
+            if (i + j < n - 1) at((i + 2.0 / 3) / n, (j + 2.0 / 3) / n);
+        }
+    }
+}
+
+double distance_to(const ReferenceSurface& target, const Vec3& point) {
+    return target.closest(point, Vec3::Zero(), std::numeric_limits<double>::max(), -1).distance;
+}
+
+void sample_face(const Mesh& mesh, FaceHandle face, double spacing, const ReferenceSurface& target,
                  Tally& tally) {
     const auto corner = corners(mesh, face);
     double longest = 0;
@@ -70,24 +89,17 @@ void sample_face(const Mesh& mesh, FaceHandle face, double spacing, const Surfac
     const int n = piece_count(longest, spacing);
     const double area = face_area(mesh, face);
     double sum = 0;
-    const auto visit = [&](double u, double v) {
-        const Vec3 point = corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]);
-        const double distance = target.closest(point).distance;
+    for_centroids(corner, n, [&](const Vec3& point) {
+        const double distance = distance_to(target, point);
         tally.max = std::max(tally.max, distance);
         sum += distance;
         ++tally.samples;
-    };
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; i + j < n; ++j) {
-            visit((i + 1.0 / 3) / n, (j + 1.0 / 3) / n);
-            if (i + j < n - 1) visit((i + 2.0 / 3) / n, (j + 2.0 / 3) / n);
-        }
-    }
+    });
     tally.weighted_sum += sum / (static_cast<double>(n) * n) * area;
     tally.weight += area;
 }
 
-void sample_edge(const Mesh& mesh, EdgeHandle edge, double spacing, const SurfaceQueries& target,
+void sample_edge(const Mesh& mesh, EdgeHandle edge, double spacing, const ReferenceSurface& target,
                  Tally& tally) {
     const HalfedgeHandle halfedge = mesh.halfedge_handle(edge, 0);
     const Vec3& from = mesh.point(mesh.from_vertex_handle(halfedge));
@@ -95,14 +107,14 @@ void sample_edge(const Mesh& mesh, EdgeHandle edge, double spacing, const Surfac
     const int n = piece_count((to - from).norm(), spacing);
     for (int i = 1; i < n; ++i) {
         const Vec3 point = from + (static_cast<double>(i) / n) * (to - from);
-        tally.max = std::max(tally.max, target.closest(point).distance);
+        tally.max = std::max(tally.max, distance_to(target, point));
         ++tally.samples;
     }
 }
 
-void sample_vertex(const Mesh& mesh, VertexHandle vertex, const SurfaceQueries& target,
+void sample_vertex(const Mesh& mesh, VertexHandle vertex, const ReferenceSurface& target,
                    Tally& tally) {
-    tally.max = std::max(tally.max, target.closest(mesh.point(vertex)).distance);
+    tally.max = std::max(tally.max, distance_to(target, mesh.point(vertex)));
     ++tally.samples;
 }
 
@@ -119,13 +131,14 @@ Tally tally_chunks(std::size_t count, const Visit& visit) {
     for (const Tally& chunk : chunks) {
         total.max = std::max(total.max, chunk.max);
         total.weighted_sum += chunk.weighted_sum;
+        total.squares += chunk.squares;
         total.weight += chunk.weight;
         total.samples += chunk.samples;
     }
     return total;
 }
 
-Tally one_sided(const Mesh& mesh, const SurfaceQueries& target, double spacing) {
+Tally one_sided(const Mesh& mesh, const ReferenceSurface& target, double spacing) {
     Tally total = tally_chunks(mesh.n_faces(), [&](std::size_t i, Tally& tally) {
         sample_face(mesh, FaceHandle(static_cast<int>(i)), spacing, target, tally);
     });
@@ -165,6 +178,32 @@ void check_distance_input(const Mesh& mesh, const Mesh& reference, double spacin
                          std::to_string(samples) + " samples");
 }
 
+double radius_ratio(const std::array<Vec3, 3>& corner) {
+    const double a = (corner[1] - corner[0]).norm(), b = (corner[2] - corner[1]).norm(),
+                 c = (corner[0] - corner[2]).norm();
+    const double product = a * b * c;
+    if (!(product > 0)) return 0;
+    // 2 r / R with r = 2 A / (a + b + c), R = a b c / (4 A).
+    const double twice_area = (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();
+    return std::min(1.0, 4 * twice_area * twice_area / ((a + b + c) * product));
+}
+
+void measure_valences(const Mesh& mesh, TriangleQuality& quality) {
+    std::size_t inner = 0, regular = 0;
+    bool is_first = true;
+    for (const VertexHandle vertex : mesh.vertices()) {
+        const int valence = static_cast<int>(mesh.valence(vertex));
+        quality.min_valence = is_first ? valence : std::min(quality.min_valence, valence);
+        quality.max_valence = std::max(quality.max_valence, valence);
+        is_first = false;
+        if (mesh.is_boundary(vertex)) continue;
+        ++inner;
+        regular += valence == 6;
+    }
+    if (inner > 0)
+        quality.share_regular = static_cast<double>(regular) / static_cast<double>(inner);
+}
+
 }  // namespace
 
 TriangleQuality measure_triangles(const Mesh& mesh) {
@@ -174,6 +213,7 @@ TriangleQuality measure_triangles(const Mesh& mesh) {
     if (quality.faces == 0) return quality;
 
     double min_angle = std::numeric_limits<double>::infinity(), angle_sum = 0;
+    double min_ratio = 1, ratio_sum = 0;
     std::size_t under_15 = 0, under_30 = 0;
     for (const FaceHandle face : mesh.faces()) {
         const double angle = smallest_angle(corners(mesh, face)) * kDegreesPerRadian;
@@ -181,10 +221,15 @@ TriangleQuality measure_triangles(const Mesh& mesh) {
         angle_sum += angle;
         under_15 += angle < 15;
         under_30 += angle < 30;
+        const double ratio = radius_ratio(corners(mesh, face));
+        min_ratio = std::min(min_ratio, ratio);
+        ratio_sum += ratio;
     }
     const double count = static_cast<double>(quality.faces);
     quality.min_angle_degrees = min_angle;
     quality.mean_min_angle_degrees = angle_sum / count;
+    quality.min_radius_ratio = min_ratio;
+    quality.mean_radius_ratio = ratio_sum / count;
     quality.share_under_15 = static_cast<double>(under_15) / count;
     quality.share_under_30 = static_cast<double>(under_30) / count;
 
@@ -197,13 +242,58 @@ TriangleQuality measure_triangles(const Mesh& mesh) {
     }
     quality.min_edge = min_edge;
     quality.mean_edge = edge_sum / static_cast<double>(mesh.n_edges());
+    measure_valences(mesh, quality);
     return quality;
+}
+
+EdgeShares measure_edges(const Mesh& mesh, double shortest, double longest) {
+    EdgeShares shares;
+    if (mesh.n_edges() == 0) return shares;
+    const double slack = 1e-6 * (longest - shortest);
+    for (const EdgeHandle edge : mesh.edges()) {
+        const double length = mesh.calc_edge_length(edge);
+        double& share = length < shortest - slack  ? shares.below
+                        : length > longest + slack ? shares.above
+                                                   : shares.inside;
+        share += 1.0 / static_cast<double>(mesh.n_edges());
+    }
+    return shares;
+}
+
+NormalDeviation measure_normals(const Mesh& mesh, const Mesh& reference, double sample_spacing) {
+    check_distance_input(mesh, reference, sample_spacing);
+    const ReferenceSurface target(reference);
+    const auto sample = [&](std::size_t i, Tally& tally) {
+        const FaceHandle face(static_cast<int>(i));
+        const auto corner = corners(mesh, face);
+        const Vec3 normal = face_normal(mesh, face);
+        double longest = 0;
+        for (int k = 0; k < 3; ++k)
+            longest = std::max(longest, (corner[(k + 1) % 3] - corner[k]).norm());
+        const int n = piece_count(longest, sample_spacing);
+        const double weight = face_area(mesh, face) / (static_cast<double>(n) * n);
+        for_centroids(corner, n, [&](const Vec3& point) {
+            const ReferencePoint near =
+                target.closest(point, Vec3::Zero(), std::numeric_limits<double>::max(), -1);
+            const double angle =
+                angle_between(normal, target.normal(near.face)) * kDegreesPerRadian;
+            tally.weighted_sum += weight * angle;
+            tally.squares += weight * angle * angle;
+            tally.weight += weight;
+        });
+    };
+    const Tally total = tally_chunks(mesh.n_faces(), sample);
+    NormalDeviation deviation;
+    if (!(total.weight > 0)) return deviation;
+    deviation.mean_degrees = total.weighted_sum / total.weight;
+    deviation.rms_degrees = std::sqrt(total.squares / total.weight);
+    return deviation;
 }
 
 MeshDistance measure_distance(const Mesh& mesh, const Mesh& reference, double sample_spacing) {
     check_distance_input(mesh, reference, sample_spacing);
-    const SurfaceQueries mesh_queries(mesh);
-    const SurfaceQueries reference_queries(reference);
+    const ReferenceSurface mesh_queries(mesh);
+    const ReferenceSurface reference_queries(reference);
     const Tally forward = one_sided(mesh, reference_queries, sample_spacing);
     const Tally backward = one_sided(reference, mesh_queries, sample_spacing);
 

@@ -51,6 +51,16 @@ float rounded_up(double x) {
     return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
 }
 
+std::vector<std::array<Vec3, 3>> corners_of(const Mesh& mesh) {
+    std::vector<std::array<Vec3, 3>> corners;
+    corners.reserve(mesh.n_faces());
+    for (const FaceHandle face : mesh.faces()) {
+        const auto v = face_vertices(mesh, face);
+        corners.push_back({mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])});
+    }
+    return corners;
+}
+
 }  // namespace
 
 struct ReferenceSurface::Item {
@@ -58,20 +68,20 @@ struct ReferenceSurface::Item {
     int face;
 };
 
-ReferenceSurface::ReferenceSurface(const Mesh& mesh) {
-    const std::size_t count = mesh.n_faces();
+ReferenceSurface::ReferenceSurface(const Mesh& mesh) : ReferenceSurface(corners_of(mesh)) {}
+
+ReferenceSurface::ReferenceSurface(const std::vector<std::array<Vec3, 3>>& corners) {
+    const std::size_t count = corners.size();
     if (count == 0) throw InputError("reference surface: the mesh has no faces");
     std::vector<Item> items(count);
     triangles_.resize(count);
-    for (const FaceHandle face : mesh.faces()) {
-        const auto v = face_vertices(mesh, face);
-        const Vec3 &a = mesh.point(v[0]), &b = mesh.point(v[1]), &c = mesh.point(v[2]);
+    for (std::size_t f = 0; f < count; ++f) {
+        const auto& [a, b, c] = corners[f];
         const Vec3 center = (a + b + c) / 3;
-        auto& item = items[static_cast<std::size_t>(face.idx())];
-        item.face = face.idx();
+        items[f].face = static_cast<int>(f);
         for (std::size_t i = 0; i < 3; ++i)
-            item.center[i] = static_cast<float>(center[static_cast<int>(i)]);
-        triangles_[static_cast<std::size_t>(face.idx())] = {a, b - a, c - a};
+            items[f].center[i] = static_cast<float>(center[static_cast<int>(i)]);
+        triangles_[f] = {a, b - a, c - a};
     }
     nodes_.reserve(count);
     build(items, 0, static_cast<int>(count));

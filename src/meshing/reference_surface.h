@@ -20,6 +20,8 @@ struct ReferencePoint {
 class ReferenceSurface {
 public:
     explicit ReferenceSurface(const Mesh& mesh);
+    /// Triangles by their corners; equal ones make a segment or a point.
+    explicit ReferenceSurface(const std::vector<std::array<Vec3, 3>>& corners);
 
     /// Closest point within `reach` on faces whose unit normal m has m . normal > kSameSheet (zero
     /// normal: on any face). `hint`, a face near the answer or -1, saves time and changes nothing

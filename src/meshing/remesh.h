@@ -47,8 +47,15 @@ struct RemeshResult {
 RemeshResult remesh_triangles(const LoadedMesh& mesh, const FeatureCurveNetwork& network,
                               const RemeshOptions& options);
 
+/// What CGAL's remesher is told about the network, when it is protected at all.
+enum class CgalFeatures {
+    Protected,    ///< segments as single edges, which it may not touch
+    Constrained,  ///< dense curves, which it may cut anew; nodes stay
+};
+
 /// The same through CGAL's Polygon_mesh_processing, to compare with.
 RemeshResult remesh_with_cgal(const LoadedMesh& mesh, const FeatureCurveNetwork& network,
-                              const RemeshOptions& options);
+                              const RemeshOptions& options,
+                              CgalFeatures features = CgalFeatures::Protected);
 
 }  // namespace fcn

@@ -17,15 +17,16 @@ namespace {
 
 /// CGAL's remesher; where it fails, without projection; where that fails, the mesh as it is.
 MarkedMesh remesh_robustly(const MarkedMesh& marked, const SurfaceQueries& surface,
-                           const RemeshOptions& options, std::vector<std::string>& warnings) {
+                           const RemeshOptions& options, CgalFeatures features,
+                           std::vector<std::string>& warnings) {
     IsotropicOptions isotropic;
     isotropic.edge_length = options.edge_length;
     isotropic.iterations = options.iterations;
-    isotropic.is_protecting = options.is_protecting;
+    isotropic.is_protecting = options.is_protecting && features == CgalFeatures::Protected;
     for (const bool is_projecting : {true, false}) {
         isotropic.is_projecting = is_projecting;
         IsotropicResult result = remesh_isotropic(marked, surface, isotropic);
-        if (result.lost_features > 0)
+        if (isotropic.is_protecting && result.lost_features > 0)
             warnings.push_back(std::to_string(result.lost_features) +
                                " protected edges were not kept by the remesher");
         if (result.has_succeeded) return std::move(result.mesh);
@@ -40,7 +41,7 @@ MarkedMesh remesh_robustly(const MarkedMesh& marked, const SurfaceQueries& surfa
 }  // namespace
 
 RemeshResult remesh_with_cgal(const LoadedMesh& mesh, const FeatureCurveNetwork& network,
-                              const RemeshOptions& options) {
+                              const RemeshOptions& options, CgalFeatures features) {
     check_remesh_input(mesh, options);
     const auto start = std::chrono::steady_clock::now();
     RemeshResult result;
@@ -49,16 +50,20 @@ RemeshResult remesh_with_cgal(const LoadedMesh& mesh, const FeatureCurveNetwork&
     MarkedMesh marked;
     if (options.is_protecting) {
         NetworkInMesh embedded = embed_network(mesh, network, options.edge_length, reference);
-        coarsen(embedded.mesh, target);
         result.warnings = std::move(embedded.warnings);
-        report_broken(embedded, network, result);
+        if (features == CgalFeatures::Protected) {
+            coarsen(embedded.mesh, target);
+            report_broken(embedded, network, result);
+        }
+        embedded.mesh.compact();
         marked = embedded.mesh.to_marked_mesh();
     } else {
         marked = working_mesh(mesh).to_marked_mesh();
         marked.is_fixed_vertex.assign(marked.is_fixed_vertex.size(), false);
     }
     const SurfaceQueries surface(mesh.mesh);
-    const MarkedMesh remeshed = remesh_robustly(marked, surface, options, result.warnings);
+    const MarkedMesh remeshed =
+        remesh_robustly(marked, surface, options, features, result.warnings);
     fill_output(mesh, remeshed, result);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
