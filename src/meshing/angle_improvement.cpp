@@ -5,10 +5,12 @@
 // or split an edge at the bad triangle or at its neighbours, relax the patch around it by flips and
 // moves, then compare the patch as a whole. A journal takes back what did not pay, so that a trial
 // costs what it touches. The patch's distance from the reference may not grow beyond a small share
-// of the edge length.
+// of the edge length, and a face that looks away from the surface there counts as far from it; thin
+// walls are not dented; the limits loosen in stages, for what is left.
 #include "meshing/angle_improvement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "meshing/patch.h"
@@ -17,12 +19,15 @@
 namespace fcn {
 namespace {
 
-constexpr double kLeastGain = 0.02;      ///< share of the bad triangle's own penalty
-constexpr double kLongest = 1.6;         ///< in targets: a collapse makes no longer edge
-constexpr double kMaxTurn = 0.75;        ///< cosine, of a face at a collapse
-constexpr double kFreeDeviation = 0.04;  ///< in targets
-constexpr double kGrowth = 1.02;         ///< of a deviation that is larger already
+constexpr double kLeastGain = 0.02;   ///< share of the bad triangle's own penalty
+constexpr double kLongest = 1.6;      ///< in targets: a collapse makes no longer edge
+constexpr double kGrowth = 1.02;      ///< of a deviation that is larger already
+constexpr double kShareOfWall = 0.3;  ///< deviation over the distance to the sheet behind
 constexpr std::size_t kMostChecked = 4;
+
+/// What bad triangles are left may cost more shape: those beside creases that no network keeps.
+constexpr std::array<PatchLimits, 3> kStages{
+    {{0.8, 0.9, 0.04}, {0.5, 0.65, 0.1}, {0.1, 0.4, 0.25}}};
 
 struct Trial {
     enum class Kind { Relax, Flip, Split, Collapse } kind = Kind::Relax;
@@ -44,13 +49,18 @@ public:
     AngleStatistics run() {
         AngleStatistics statistics;
         statistics.bad_before = bad_faces().size();
-        for (int round = 0; round < options_.max_rounds; ++round) {
-            std::size_t count = 0;
-            for (const auto& [cosine, face] : bad_faces())
-                if (mesh_.is_face_alive(face) && cosine_of(face) > bad_cosine_)
-                    count += mend_if_new(face);
-            statistics.improvements += count;
-            if (count == 0) break;
+        for (const PatchLimits& limits : kStages) {
+            limits_ = limits;
+            patch_.set_limits(limits);
+            tried_.clear();
+            for (int round = 0; round < options_.max_rounds; ++round) {
+                std::size_t count = 0;
+                for (const auto& [cosine, face] : bad_faces())
+                    if (mesh_.is_face_alive(face) && cosine_of(face) > bad_cosine_)
+                        count += mend_if_new(face);
+                statistics.improvements += count;
+                if (count == 0) break;
+            }
         }
         statistics.bad_after = bad_faces().size();
         return statistics;
@@ -113,13 +123,15 @@ private:
         }
         if (promising.empty()) return false;
         std::sort(promising.begin(), promising.end());
-        const double allowed =
-            std::max(kFreeDeviation * target_.length, kGrowth * patch_.deviation());
+        const Deviation was = patch_.deviation();
+        const double allowed = std::max(limits_.deviation * target_.length, kGrowth * was.distance);
+        const double wall = std::max(kShareOfWall, kGrowth * was.share_of_wall);
         for (std::size_t k = 0; k < std::min(promising.size(), kMostChecked); ++k) {
             const auto checkpoint = mesh_.start_recording();
             apply(trials[promising[k].second]);
             patch_.relax();
-            if (patch_.deviation() <= allowed) {
+            const Deviation is = patch_.deviation();
+            if (is.distance <= allowed && is.share_of_wall <= wall) {
                 mesh_.forget();
                 return true;
             }
@@ -187,7 +199,7 @@ private:
         const bool keeps = mesh_.visit_star(v, [&](int out) {
             const Vec3 &b = mesh_.point(mesh_.to(out)), &c = mesh_.point(mesh_.apex(out));
             return triangle_normal(middle, b, c).dot(triangle_normal(there.position, b, c)) >=
-                   kMaxTurn;
+                   limits_.max_turn;
         });
         mesh_.set_point(v, there.position);
         mesh_.set_place(v, there.face);
@@ -200,9 +212,9 @@ private:
         const Vec3 &a = mesh_.point(mesh_.from(h)), &b = mesh_.point(mesh_.to(h));
         const Vec3 &c = mesh_.point(mesh_.apex(h)), &d = mesh_.point(mesh_.apex(t));
         const Vec3 sum = triangle_normal(a, b, c) + triangle_normal(b, a, d);
-        if (!(sum.norm() > 1.6)) return false;
-        return triangle_normal(d, c, a).dot(sum) > 0.7 * sum.norm() &&
-               triangle_normal(c, d, b).dot(sum) > 0.7 * sum.norm();
+        const double least = 0.8 * limits_.flatness * sum.norm();
+        return sum.norm() > 1.8 * limits_.flatness && triangle_normal(d, c, a).dot(sum) > least &&
+               triangle_normal(c, d, b).dot(sum) > least;
     }
 
     bool keeps_faces(int h, int vanishing) const {
@@ -215,7 +227,7 @@ private:
             const Vec3 &pb = mesh_.point(b), &pc = mesh_.point(c);
             if ((pb - there).norm() > longest || (pc - there).norm() > longest) return false;
             return triangle_normal(there, pb, pc)
-                       .dot(triangle_normal(mesh_.point(vanishing), pb, pc)) >= kMaxTurn;
+                       .dot(triangle_normal(mesh_.point(vanishing), pb, pc)) >= limits_.max_turn;
         });
     }
 
@@ -224,6 +236,7 @@ private:
     const EdgeTarget& target_;
     AngleOptions options_;
     double bad_cosine_;
+    PatchLimits limits_;
     Patch patch_;
     std::vector<int> changed_, tried_;  ///< per face: when its patch changed, and was tried, last
     int clock_ = 0;                     ///< changes so far

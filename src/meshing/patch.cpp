@@ -13,12 +13,12 @@
 namespace fcn {
 namespace {
 
-constexpr double kAim = 0.59;           ///< radians (34 degrees)
-constexpr double kAimCosine = 0.83094;  ///< its cosine
-constexpr double kMaxTurn = 0.8;        ///< cosine between a face's normal before and after a move
-constexpr double kFlat = 0.9;           ///< cosine between faces that may be flipped
+constexpr double kAim = 0.59;                         ///< radians (34 degrees)
+constexpr double kAimCosine = 0.83094;                ///< its cosine
 constexpr double kFirstStep = 0.2, kLastStep = 0.01;  ///< of a move, in targets
 constexpr int kRounds = 4;
+constexpr double kNegligible = 1e-6;  ///< in reaches: no deviation
+constexpr double kBehind = 0.5;       ///< cosine that the normals behind a wall reverse by
 
 }  // namespace
 
@@ -77,8 +77,8 @@ double Patch::penalty() const {
     return sum;
 }
 
-double Patch::deviation() const {
-    double worst = 0;
+Deviation Patch::deviation() const {
+    Deviation worst;
     for (const int f : faces()) {
         const auto [ia, ib, ic] = mesh_.corners(f);
         const Vec3 &a = mesh_.point(ia), &b = mesh_.point(ib), &c = mesh_.point(ic);
@@ -87,7 +87,13 @@ double Patch::deviation() const {
         for (const Vec3& p : {Vec3((a + b + c) / 3), Vec3(0.5 * (a + b)), Vec3(0.5 * (b + c)),
                               Vec3(0.5 * (c + a))}) {
             const ReferencePoint near = reference_.closest(p, normal, reach, mesh_.place(ia));
-            worst = std::max(worst, near.face < 0 ? reach : near.distance);
+            const double distance = near.face < 0 ? reach : near.distance;
+            worst.distance = std::max(worst.distance, distance);
+            if (distance <= kNegligible * reach) continue;
+            const ReferencePoint behind = reference_.closest(p, -normal, reach, -1, kBehind);
+            if (behind.face < 0) continue;
+            worst.share_of_wall =
+                std::max(worst.share_of_wall, distance / std::max(behind.distance, 1e-300));
         }
     }
     return worst;
@@ -113,9 +119,9 @@ std::size_t Patch::flip_edges() {
             if (before <= 0) continue;
             if (angle_penalty(d, c, a) + angle_penalty(c, d, b) >= before * 0.999) continue;
             const Vec3 mean = (triangle_normal(a, b, c) + triangle_normal(b, a, d)).normalized();
-            const bool is_flat = triangle_normal(a, b, c).dot(mean) > kFlat &&
-                                 triangle_normal(d, c, a).dot(mean) > kFlat &&
-                                 triangle_normal(c, d, b).dot(mean) > kFlat;
+            const bool is_flat = triangle_normal(a, b, c).dot(mean) > limits_.flatness &&
+                                 triangle_normal(d, c, a).dot(mean) > limits_.flatness &&
+                                 triangle_normal(c, d, b).dot(mean) > limits_.flatness;
             if (!is_flat || !mesh_.can_flip(h)) continue;
             mesh_.flip(h);
             ++count;
@@ -145,7 +151,8 @@ double Patch::star_penalty(int v, const Vec3& p) const {
 bool Patch::turns_faces(int v, const Vec3& p) const {
     return !mesh_.visit_star(v, [&](int h) {
         const Vec3 &b = mesh_.point(mesh_.to(h)), &c = mesh_.point(mesh_.apex(h));
-        return triangle_normal(p, b, c).dot(triangle_normal(mesh_.point(v), b, c)) >= kMaxTurn;
+        return triangle_normal(p, b, c).dot(triangle_normal(mesh_.point(v), b, c)) >=
+               limits_.max_turn;
     });
 }
 

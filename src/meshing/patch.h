@@ -10,18 +10,32 @@ namespace fcn {
 /// angle falls.
 double angle_penalty(const Vec3& a, const Vec3& b, const Vec3& c);
 
+/// How far trial changes may bend the surface.
+struct PatchLimits {
+    double max_turn = 0.8;    ///< cosine between a face's normal before and after
+    double flatness = 0.9;    ///< cosine between faces at an edge that is flipped and their mean
+    double deviation = 0.04;  ///< from the reference, in targets, where it is not larger already
+};
+
+/// Distance from the reference: the largest, and the largest as a share of the distance to the
+/// sheet behind, which a thin wall must not come near.
+struct Deviation {
+    double distance = 0, share_of_wall = 0;
+};
+
 /// A piece of a mesh around a face, in which trial changes take place: two rings of faces, of which
 /// the inner one's vertices may move. Uses the mesh's journal.
 class Patch {
 public:
     Patch(WorkingMesh& mesh, const ReferenceSurface& reference, const EdgeTarget& target);
 
+    void set_limits(const PatchLimits& limits) { limits_ = limits; }
     /// Takes the faces around `face`.
     void gather(int face);
     /// Sum of the penalties of what is in the patch now.
     double penalty() const;
-    /// Largest distance from the reference of the faces' centres and edges' middles.
-    double deviation() const;
+    /// Of the faces' centres and edges' middles.
+    Deviation deviation() const;
     /// Flips and moves that lower the penalty, for some rounds.
     void relax();
     /// Faces now in the patch, with those that changes made.
@@ -38,6 +52,7 @@ private:
     WorkingMesh& mesh_;
     const ReferenceSurface& reference_;
     const EdgeTarget& target_;
+    PatchLimits limits_;
     std::vector<int> faces_;    ///< as gathered
     std::vector<int> movable_;  ///< vertices as gathered
     std::vector<int> stamps_;   ///< per face: the patch it was last part of

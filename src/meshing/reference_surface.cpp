@@ -149,12 +149,12 @@ int ReferenceSurface::build(std::vector<Item>& items, int begin, int end) {
 }
 
 ReferencePoint ReferenceSurface::closest(const Vec3& point, const Vec3& normal, double reach,
-                                         int hint) const {
+                                         int hint, double least_cosine) const {
     const bool is_any_sheet = normal.isZero(0);
     ReferencePoint best;
     double best_square = reach * reach;
     const auto try_triangle = [&](std::size_t i) {
-        if (!is_any_sheet && !(normals_[i].dot(normal) > kSameSheet)) return;
+        if (!is_any_sheet && !(normals_[i].dot(normal) > least_cosine)) return;
         const Triangle& t = triangles_[i];
         const Vec3 nearest = closest_in_triangle(t.a, t.ab, t.ac, point);
         const double square = (nearest - point).squaredNorm();

@@ -23,10 +23,11 @@ public:
     /// Triangles by their corners; equal ones make a segment or a point.
     explicit ReferenceSurface(const std::vector<std::array<Vec3, 3>>& corners);
 
-    /// Closest point within `reach` on faces whose unit normal m has m . normal > kSameSheet (zero
-    /// normal: on any face). `hint`, a face near the answer or -1, saves time and changes nothing
-    /// but ties.
-    ReferencePoint closest(const Vec3& point, const Vec3& normal, double reach, int hint) const;
+    /// Closest point within `reach` on faces whose unit normal m has m . normal > least_cosine
+    /// (zero normal: on any face). `hint`, a face near the answer or -1, saves time and changes
+    /// nothing but ties.
+    ReferencePoint closest(const Vec3& point, const Vec3& normal, double reach, int hint,
+                           double least_cosine = kSameSheet) const;
 
     /// Unit; zero where degenerate.
     const Vec3& normal(int face) const { return normals_[slot(face)]; }

@@ -189,6 +189,7 @@ int WorkingMesh::split(int h, const Vec3& p) {
         set(Array::Role, tp, 0);
         join(k + 1, tp);
         join(k, n);
+        set_out(d, k + 2);
     }
     set_out(m, n);
     set_out(b, n + 1);
@@ -229,7 +230,11 @@ bool WorkingMesh::can_collapse(int h, int vanishing) const {
 void WorkingMesh::close_gap(int h) {
     const int a = next(h), b = prev(h), c = apex(h);
     const int x = twin(a), y = twin(b);
+    // One of them may be missing at a boundary, and with it what its side of the edge knew.
+    const int role = std::max(roles_[at(a)], roles_[at(b)]);
     join(x, y);
+    for (const int side : {x, y})
+        if (side >= 0) set(Array::Role, side, role);
     for (const int side : {h, a, b}) set(Array::From, side, -1);
     set_out(c, x >= 0 ? x : next(y));
 }
@@ -322,6 +327,36 @@ void WorkingMesh::compact() {
     roles_.resize(at(3 * faces));
     for (int& v : tracked_)
         if (v >= 0) v = number[at(v)];
+}
+
+std::string WorkingMesh::first_fault() const {
+    const auto fault = [](const char* what, int which) {
+        return std::string(what) + " " + std::to_string(which);
+    };
+    std::vector<int> faces_at(points_.size(), 0);
+    for (int h = 0; h < halfedge_end(); ++h) {
+        if (!is_halfedge_alive(h)) continue;
+        const int t = twin(h);
+        if (!is_face_alive(face(h))) return fault("halfedge of a dead face", h);
+        if (!is_vertex_alive(from(h))) return fault("dead vertex of halfedge", h);
+        if (from(h) == to(h)) return fault("loop at halfedge", h);
+        if (t >= 0 && (twin(t) != h || from(t) != to(h) || to(t) != from(h)))
+            return fault("wrong twin of halfedge", h);
+        if (t >= 0 && roles_[at(t)] != roles_[at(h)]) return fault("two roles of halfedge", h);
+        if (is_marked(h) && !(is_on_curve(from(h)) && is_on_curve(to(h))))
+            return fault("no curve at the ends of halfedge", h);
+        if (t < 0 && !is_marked(h)) return fault("unmarked border at halfedge", h);
+        if (t < 0 && out(from(h)) != h) return fault("not the first of its fan: halfedge", h);
+        ++faces_at[at(from(h))];
+    }
+    for (int v = 0; v < vertex_end(); ++v) {
+        if (!is_vertex_alive(v)) continue;
+        if (from(out(v)) != v) return fault("wrong halfedge out of vertex", v);
+        int visited = 0;
+        visit_star(v, [&](int) { return ++visited <= faces_at[at(v)]; });
+        if (visited != faces_at[at(v)]) return fault("more than one fan at vertex", v);
+    }
+    return {};
 }
 
 MarkedMesh WorkingMesh::to_marked_mesh() const {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "meshing/marked_mesh.h"
@@ -115,6 +116,8 @@ public:
 
     /// Renumbers what is alive in its order, tracked vertices with it.
     void compact();
+    /// The first broken invariant, for tests; empty: none. Linear time.
+    std::string first_fault() const;
     /// For compacted meshes.
     MarkedMesh to_marked_mesh() const;
 

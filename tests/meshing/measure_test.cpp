@@ -129,5 +129,72 @@ TEST(MeasureDistance, ImpossibleInputIsRefused) {
     EXPECT_THROW(measure_distance(Mesh(), plane, 0.1), InputError);
 }
 
+TEST(MeasureTriangles, RadiusRatiosAndValencesOfKnownMeshes) {
+    const TriangleQuality grid = measure_triangles(test::equilateral_grid(0.5, 6, 4));
+    EXPECT_NEAR(grid.min_radius_ratio, 1, 1e-12);
+    EXPECT_NEAR(grid.mean_radius_ratio, 1, 1e-12);
+    EXPECT_EQ(grid.share_regular, 1);
+    EXPECT_EQ(grid.max_valence, 6);
+    EXPECT_EQ(grid.min_valence, 2);
+    // Right triangles with equal legs 1: r = 1 - 1 / sqrt 2, R = 1 / sqrt 2.
+    EXPECT_NEAR(measure_triangles(test::rectangle(1, 1, 2, 2)).mean_radius_ratio,
+                2 * (std::sqrt(2.0) - 1), 1e-12);
+    // The octahedron's corners keep valence 4, all others get 6.
+    const TriangleQuality sphere = measure_triangles(test::sphere(1, 2));
+    EXPECT_NEAR(sphere.share_regular, 60.0 / 66, 1e-12);
+    EXPECT_EQ(sphere.min_valence, 4);
+}
+
+TEST(MeasureEdges, SharesOfARightTriangleGrid) {
+    // Legs 1/4 and 1/2, diagonals sqrt(5)/4 = 0.559.
+    const EdgeShares shares = measure_edges(test::rectangle(1, 1, 4, 2), 0.3, 0.55);
+    const double edges = 4 * 3 + 5 * 2 + 8;
+    EXPECT_NEAR(shares.below, 12 / edges, 1e-12);
+    EXPECT_NEAR(shares.inside, 10 / edges, 1e-12);
+    EXPECT_NEAR(shares.above, 8 / edges, 1e-12);
+    EXPECT_EQ(measure_edges(Mesh(), 1, 2).inside, 0);
+}
+
+TEST(MeasureNormals, TiltedPlaneDeviatesByItsAngle) {
+    for (const double degrees : {0.0, 3.0, 20.0}) {
+        Mesh tilted = test::rectangle(1, 1, 3, 3);
+        const double slope = std::tan(degrees / 57.29577951308232);
+        for (const VertexHandle v : tilted.vertices()) {
+            Vec3 p = tilted.point(v);
+            p[2] = slope * p[0];
+            tilted.set_point(v, p);
+        }
+        const NormalDeviation deviation = measure_normals(tilted, test::rectangle(3, 3, 2, 2), 0.1);
+        EXPECT_NEAR(deviation.mean_degrees, degrees, 1e-6);
+        EXPECT_NEAR(deviation.rms_degrees, degrees, 1e-6);
+    }
+}
+
+TEST(MeasureFeatures, LineBesideTheEdgesIsItsDistanceAway) {
+    FeatureCurveNetwork network;
+    NetworkArc arc;
+    arc.nodes = {0, 1};
+    arc.samples = {{Vec3(0.1, 0.55, 0), {}}, {Vec3(0.9, 0.55, 0), {}}};
+    network.nodes = {{Vec3(0.1, 0.5, 0), {}}, {Vec3(0.9, 0.5, 0.25), {}}};
+    network.segments.push_back({{0, 1}, 0, 0, 1, 1, false});
+    network.arcs.push_back(arc);
+    // Strips only: rows at 0 and 1/2 and 1, no edges across but at the ends and the diagonals.
+    const Mesh mesh = test::rectangle(10, 1, 1, 2);
+    const FeatureDeviation deviation = measure_features(mesh, network, 0.01);
+    EXPECT_GT(deviation.samples, 70U);
+    EXPECT_LE(deviation.max, 0.05 + 1e-12);
+    const FeatureDeviation on_edge = [&] {
+        FeatureCurveNetwork moved = network;
+        for (ArcSample& sample : moved.arcs[0].samples) sample.position[1] = 0.5;
+        return measure_features(mesh, moved, 0.01);
+    }();
+    EXPECT_NEAR(on_edge.max, 0, 1e-12);
+    // Nearest vertices of the nodes: (0, 1/2) twice.
+    EXPECT_NEAR(deviation.max_node, std::hypot(0.9, 0.25), 1e-12);
+    EXPECT_NEAR(deviation.mean_node, (0.1 + std::hypot(0.9, 0.25)) / 2, 1e-12);
+    EXPECT_THROW(measure_features(mesh, network, 0), InputError);
+    EXPECT_THROW(measure_features(Mesh(), network, 0.1), InputError);
+}
+
 }  // namespace
 }  // namespace fcn
