@@ -224,6 +224,32 @@ const tests = {
     await page.locator(`${view} input[name=adapted]`).check();
   },
 
+  "a curve behind the surface is not named": async (page) => {
+    for (const name of ["adapted", "surface"])
+      await page.locator(`${view} input[name=${name}]`).uncheck();
+    const all = await orangePlaces(page, 1000);
+    await page.locator(`${view} input[name=surface]`).check();
+    const seen = await orangePlaces(page, 1e6);
+    const hidden = all.filter(([x, y]) => seen.every(([u, v]) => Math.hypot(x - u, y - v) > 15));
+    assert.ok(hidden.length > 0, "nothing is hidden");
+    const box = await page.locator(canvas).boundingBox();
+    const tip = page.locator(`${view} .v-tip`);
+    for (const isShown of [true, false]) {
+      await page.locator(`${view} input[name=surface]`).setChecked(isShown);
+      let named = 0;
+      for (const [x, y] of hidden.slice(0, 12)) {
+        await page.mouse.move(box.x + x, box.y + y);
+        await settled(page);
+        if (await tip.isVisible()) ++named;
+      }
+      if (isShown) assert.equal(named, 0);
+      else assert.ok(named > 0);
+    }
+    for (const name of ["adapted", "surface"])
+      await page.locator(`${view} input[name=${name}]`).check();
+    await page.mouse.move(box.x + 3, box.y + 3);
+  },
+
   "a picture can be saved": async (page) => {
     const download = page.waitForEvent("download");
     await page.locator(`${view} button`, { hasText: "Save picture" }).click();
@@ -258,18 +284,23 @@ const tests = {
   },
 };
 
-// Pixels in the colour of dropped pieces, thinned out, in CSS pixels.
-function orangePlaces(page) {
-  return page.evaluate((which) => {
+// Pixels in the colour of dropped pieces, about `most` of them, in CSS pixels.
+async function orangePlaces(page, most = 40) {
+  await settled(page);
+  return page.evaluate(([which, count]) => {
     const whole = document.querySelector(which);
-    const { data, width } = whole.getContext("2d").getImageData(0, 0, whole.width, whole.height);
+    const copy = Object.assign(document.createElement("canvas"),
+                               { width: whole.width, height: whole.height });
+    const context = copy.getContext("2d", { willReadFrequently: true });
+    context.drawImage(whole, 0, 0);
+    const { data, width } = context.getImageData(0, 0, whole.width, whole.height);
     const scale = whole.clientWidth / width;
     const found = [];
     for (let i = 0; i < data.length; i += 4)
       if (data[i] === 213 && data[i + 1] === 94 && data[i + 2] === 0)
         found.push([((i / 4) % width) * scale, Math.floor(i / 4 / width) * scale]);
-    return found.filter((_, i) => i % Math.ceil(found.length / 40) === 0);
-  }, canvas);
+    return found.filter((_, i) => i % Math.ceil(found.length / count) === 0);
+  }, [canvas, most]);
 }
 
 async function testPhone(browser, address) {
