@@ -284,7 +284,9 @@ public:
     bool is_exact() const override { return true; }
     SolveResult solve(const LabelingProblem& problem, const SolveOptions& options) const override {
         require_valid_options(problem, options);
-        RunControl control(options, options_.default_work_limit);
+        // Who gives a time wants it used.
+        RunControl control(options,
+                           options.time_limit ? std::nullopt : options_.default_work_limit);
         std::optional<Solution> given;
         try {
             return ExactSearch(problem, options, options_, control, given).run();

@@ -12,7 +12,7 @@ namespace labeling {
 struct ExactSearchOptions {
     std::string name;
     std::string description;
-    /// Work limit where the caller sets none; nullopt = run to the end.
+    /// Work limit where the caller limits neither work nor time; nullopt = run to the end.
     std::optional<std::int64_t> default_work_limit;
     /// Empty: bounds come from clique covers alone.
     LpFactory lp;
@@ -25,7 +25,8 @@ std::shared_ptr<const Solver> make_exact_solver(ExactSearchOptions options);
 /// Without a limit of its own.
 std::shared_ptr<const Solver> make_branch_and_bound_solver(LpFactory lp = {});
 
-/// The same machine stopped by a deterministic default work limit of about 30 s.
+/// The same machine stopped by a deterministic default work limit of about 30 s, unless the caller
+/// gives a limit.
 std::shared_ptr<const Solver> make_auto_solver(LpFactory lp = {});
 
 }  // namespace labeling

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "labeling/exact_search.h"
 #include "labeling/generators.h"
 #include "labeling/problems.h"
 #include "labeling/registry.h"
@@ -75,6 +76,20 @@ Interrupted solve(const labeling::Solver& solver, const Case& c, std::int64_t st
 }
 
 class Interrupt : public testing::TestWithParam<std::string> {};
+
+TEST(Limits, TheDefaultWorkYieldsToATimeLimit) {
+    labeling::ExactSearchOptions limited;
+    limited.name = "limited";
+    limited.default_work_limit = 1;
+    const auto solver = labeling::make_exact_solver(limited);
+    const Case& c = cases().front();
+    SolveOptions options;
+    EXPECT_EQ(solver->solve(c.problem, options).stop_reason, StopReason::WorkLimit);
+    options.time_limit = std::chrono::hours(1);
+    const SolveResult all = solver->solve(c.problem, options);
+    ASSERT_EQ(all.status, SolveStatus::Optimal);
+    EXPECT_EQ(all.solution->value, c.optimum);
+}
 
 TEST_P(Interrupt, AtAnyMomentLeavesAValidAnswer) {
     const auto solver = every_solver().find(GetParam());
