@@ -1,9 +1,12 @@
 // The conflict graph of literals, by probing (Savelsbergh 1994; Atamturk, Nemhauser & Savelsbergh
 // 2000 for conflict graphs of binary programs). Bonuses are nodes of their own, so that cliques of
-// this graph give the product-clique rows, the implication rows and the links y <= b at once.
+// this graph give the product-clique rows, the implication rows and the links y <= b at once. Pairs
+// of bonuses are quadratic where bonuses run across curves (quads), so heavy ones find theirs first
+// and there is a limit: a missing edge makes cliques smaller, not wrong.
 #include "labeling/term_graph.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace labeling {
 namespace {
@@ -17,9 +20,11 @@ std::uint64_t edge(TermGraph::Node u, TermGraph::Node v) {
 
 }  // namespace
 
-TermGraph::TermGraph(const LabelingProblem& problem, Propagator& propagator, RunControl* control)
+TermGraph::TermGraph(const LabelingProblem& problem, Propagator& propagator, RunControl* control,
+                     std::size_t most_edges)
     : label_count_(problem.label_count()),
-      bonus_count_(static_cast<std::int32_t>(problem.bonus_count())) {
+      bonus_count_(static_cast<std::int32_t>(problem.bonus_count())),
+      most_edges_(most_edges) {
     bonus_begin_.assign(static_cast<std::size_t>(label_count_) + 1, 0);
     for (const Bonus& b : problem.bonuses()) {
         ++bonus_begin_[b.first + 1];
@@ -33,15 +38,17 @@ TermGraph::TermGraph(const LabelingProblem& problem, Propagator& propagator, Run
         bonuses_at_[next[problem.bonuses()[k].second]++] = k;
     }
     std::vector<std::uint64_t> edges;
-    for (Node v = 0; v < node_count(); ++v) {
+    Node probes = 0;
+    for (Node v : probing_order(problem)) {
         probe(problem, propagator, v, edges);
-        if (control == nullptr || v % kProbesPerLook != 0) continue;
+        if (control == nullptr || ++probes % kProbesPerLook != 0) continue;
         control->check();
         if (control->is_over()) {
             edges.clear();
             break;
         }
     }
+    std::sort(impossible_.begin(), impossible_.end());
     build_adjacency(edges);
     work_ += 8 * static_cast<std::int64_t>(adjacency_.size());
     if (node_count() > kMatrixLimit) return;
@@ -53,6 +60,21 @@ TermGraph::TermGraph(const LabelingProblem& problem, Propagator& propagator, Run
                                                                               << (v % 64);
         }
     }
+}
+
+/// Labels, then bonuses by value.
+std::vector<TermGraph::Node> TermGraph::probing_order(const LabelingProblem& problem) const {
+    std::vector<Node> order(static_cast<std::size_t>(node_count()));
+    std::iota(order.begin(), order.begin() + label_count_, 0);
+    std::iota(order.begin() + label_count_, order.begin() + 2 * std::ptrdiff_t{label_count_},
+              off_node(0));
+    const auto bonuses = order.begin() + 2 * std::ptrdiff_t{label_count_};
+    std::iota(bonuses, order.end(), label_count_);
+    std::stable_sort(bonuses, order.end(), [&](Node a, Node b) {
+        return problem.bonuses()[column(a) - label_count_].value >
+               problem.bonuses()[column(b) - label_count_].value;
+    });
+    return order;
 }
 
 /// Both directions of each edge, ascending at each node, none twice.
@@ -110,6 +132,7 @@ void TermGraph::probe(const LabelingProblem& problem, Propagator& propagator, No
                 continue;
             }
             if (v != off_node(i)) edges.push_back(edge(v, label_node(i)));
+            if (second >= 0 && edges.size() >= most_edges_) continue;
             for (std::size_t b = bonus_begin_[i]; b < bonus_begin_[i + 1]; ++b) {
                 edges.push_back(edge(v, bonus_node(bonuses_at_[b])));
             }

@@ -17,12 +17,14 @@ namespace labeling {
 class TermGraph {
 public:
     using Node = std::int32_t;
+    /// Some 70 MB. Fewer and more were slower on quads, whose bonuses are the many.
+    static constexpr std::size_t kMostEdges = 3'000'000;
 
     /// `propagator` must be propagated; it is probed and restored. Labels that are decided have no
     /// edges. Nodes that probing refutes are listed in impossible(). Edges are missing when
-    /// `control` ended the run meanwhile.
-    TermGraph(const LabelingProblem& problem, Propagator& propagator,
-              RunControl* control = nullptr);
+    /// `control` ended the run meanwhile, and between light bonuses when `most_edges` are found.
+    TermGraph(const LabelingProblem& problem, Propagator& propagator, RunControl* control = nullptr,
+              std::size_t most_edges = kMostEdges);
 
     Node node_count() const { return 2 * label_count_ + bonus_count_; }
     Label label_count() const { return label_count_; }
@@ -46,6 +48,7 @@ public:
     std::int64_t work() const { return work_; }
 
 private:
+    std::vector<Node> probing_order(const LabelingProblem& problem) const;
     void probe(const LabelingProblem& problem, Propagator& propagator, Node v,
                std::vector<std::uint64_t>& edges);
 
@@ -60,6 +63,7 @@ private:
     std::vector<std::int32_t> bonuses_at_;  ///< bonus indices by label
     std::vector<std::uint64_t> matrix_;     ///< adjacency bits, only for few nodes
     std::size_t words_per_row_ = 0;
+    std::size_t most_edges_ = 0;
     std::int64_t work_ = 0;
 };
 

@@ -91,16 +91,47 @@ TEST(RemainingTime, CountsLimitsFirstAndMeansLater) {
     plan.solvers.resize(1);
     plan.solvers[0].limits.seconds = 10;
     plan.solvers[0].limits.margin_seconds = 1;
-    const Job job{"k", 0, 0, 1, 0};
     RemainingTime remaining(plan, 2);
-    for (int k = 0; k < 6; ++k) remaining.is_left(job);
+    std::vector<Job> jobs;
+    for (std::size_t problem = 0; problem < 6; ++problem) jobs.push_back({"k", problem, 0, 1, 0});
+    for (const Job& job : jobs) remaining.is_left(job);
     EXPECT_EQ(remaining.bounds().first, 0);
     EXPECT_NEAR(remaining.bounds().second, 6 * 12.1 / 2, 1e-9);
-    remaining.has_ended(job, 3);
-    remaining.has_ended(job, 3);
+    remaining.has_ended(jobs[0], 3);
+    remaining.has_ended(jobs[1], 3);
     // Two equal times: four runs of three seconds, two at a time.
     EXPECT_NEAR(remaining.bounds().first, 6, 1e-9);
     EXPECT_NEAR(remaining.bounds().second, 6, 1e-9);
+    // Times that differ say little about a single run that is left, and never more than the limit.
+    remaining.has_ended(jobs[2], 9);
+    remaining.has_ended(jobs[3], 1);
+    remaining.has_ended(jobs[4], 2);
+    EXPECT_EQ(remaining.bounds().first, 0);
+    EXPECT_GT(remaining.bounds().second, (3 + 3 + 9 + 1 + 2) / 5.0);
+    EXPECT_LE(remaining.bounds().second, 12.1 / 2);
+    remaining.has_ended(jobs[5], 2);
+    EXPECT_EQ(remaining.bounds(), (std::pair<double, double>{0, 0}));
+}
+
+TEST(RemainingTime, KnowsHowHardAProblemWasForTheSolver) {
+    Plan plan;
+    plan.solvers.resize(2);
+    for (auto& solver : plan.solvers) solver.limits.seconds = 100;
+    RemainingTime remaining(plan, 1);
+    const Job hard{"a", 0, 0, 1, 0}, easy{"b", 1, 0, 1, 0}, other{"c", 0, 1, 1, 0};
+    for (int k = 0; k < 5; ++k) remaining.is_left(hard);
+    for (int k = 0; k < 9; ++k) remaining.is_left(easy);
+    for (int k = 0; k < 9; ++k) remaining.has_ended(easy, 1);
+    remaining.has_ended(hard, 80);
+    // Four runs like the one of 80 seconds, though nine of ten took one second.
+    EXPECT_LE(remaining.bounds().first, 4 * 80);
+    EXPECT_GT(remaining.bounds().first, 4 * 40);
+    EXPECT_GE(remaining.bounds().second, 4 * 80);
+    EXPECT_LE(remaining.bounds().second, 4 * 110.2);
+    const double before = remaining.bounds().first;
+    remaining.is_left(other);  // another solver's times say nothing
+    EXPECT_EQ(remaining.bounds().first, before);
+    EXPECT_GT(remaining.bounds().second, 4 * 80 + 100);
 }
 
 }  // namespace

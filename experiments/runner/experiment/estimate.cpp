@@ -4,40 +4,74 @@
 #include <cmath>
 
 namespace experiment {
+namespace {
 
-RemainingTime::RemainingTime(const Plan& plan, int jobs)
-    : plan_(plan), jobs_(jobs), left_(plan.solvers.size()), times_(plan.solvers.size()) {}
+constexpr double kStartUp = 0.1;         ///< of a process, where nothing is known
+constexpr double kSameProblem = 0.25;    ///< so different are runs of one solver on one problem
+constexpr double kTicksPerSecond = 1e7;  ///< where a program counts ticks alone: what ours do
+constexpr double kWithoutAnyLimit = 60;  ///< seconds
+
+double longest(const Limits& limits) {
+    const double limit = limits.seconds ? 1.1 * *limits.seconds + limits.margin_seconds
+                         : limits.ticks ? static_cast<double>(*limits.ticks) / kTicksPerSecond
+                                        : kWithoutAnyLimit;
+    return limit + kStartUp;
+}
+
+}  // namespace
+
+void RemainingTime::Times::add(double seconds) {
+    sum += seconds;
+    squares += seconds * seconds;
+    ++count;
+}
+
+double RemainingTime::Times::variance() const {
+    return std::max(0.0, (squares - sum * mean()) / (count - 1));
+}
 
 void RemainingTime::has_ended(const Job& job, double wall_seconds) {
-    Times& t = times_[job.solver];
-    t.sum += wall_seconds;
-    t.squares += wall_seconds * wall_seconds;
-    ++t.count;
-    --left_[job.solver];
+    by_solver_[job.solver].add(wall_seconds);
+    by_problem_[{job.solver, job.problem}].add(wall_seconds);
+    auto& left = left_[job.solver];
+    if (--left[job.problem] == 0) left.erase(job.problem);
+}
+
+RemainingTime::Bounds RemainingTime::bounds_of(std::size_t solver) const {
+    Bounds bounds;
+    int unmet = 0;
+    const double limit = longest(plan_.solvers[solver].limits);
+    for (const auto& [problem, count] : left_.at(solver)) {
+        const auto met = by_problem_.find({solver, problem});
+        if (met == by_problem_.end()) {
+            unmet += count;
+            continue;
+        }
+        const double mean = met->second.mean();
+        bounds.least += count * (1 - kSameProblem) * mean;
+        bounds.most += count * std::min(limit, (1 + kSameProblem) * mean);
+    }
+    const auto times = by_solver_.find(solver);
+    if (times == by_solver_.end() || times->second.count < 2) {
+        bounds.most += unmet * limit;
+    } else if (unmet > 0) {
+        const double mean = times->second.mean();
+        const double error =
+            2 * std::sqrt(times->second.variance() * (1.0 / times->second.count + 1.0 / unmet));
+        bounds.least += unmet * std::max(0.0, mean - error);
+        bounds.most += unmet * std::min(limit, mean + error);
+    }
+    return bounds;
 }
 
 std::pair<double, double> RemainingTime::bounds() const {
-    constexpr double kStartUp = 0.1;  // of a process, where nothing is known
-    double least = 0, most = 0;
-    for (std::size_t s = 0; s < times_.size(); ++s) {
-        const Times& t = times_[s];
-        const Limits& limits = plan_.solvers[s].limits;
-        // Where a program counts ticks alone, ten million a second is what ours do.
-        const double limit = limits.seconds ? 1.1 * *limits.seconds + limits.margin_seconds
-                             : limits.ticks ? static_cast<double>(*limits.ticks) / 1e7
-                                            : 60;
-        double low = 0, high = limit + kStartUp;
-        if (t.count >= 2) {
-            const double mean = t.sum / t.count;
-            const double variance = std::max(0.0, (t.squares - t.sum * mean) / (t.count - 1));
-            const double error = 2 * std::sqrt(variance / t.count);
-            low = std::max(0.0, mean - error);
-            high = mean + error;
-        }
-        least += low * left_[s];
-        most += high * left_[s];
+    Bounds sum;
+    for (const auto& [solver, problems] : left_) {
+        const Bounds bounds = bounds_of(solver);
+        sum.least += bounds.least;
+        sum.most += bounds.most;
     }
-    return {least / jobs_, most / jobs_};
+    return {sum.least / jobs_, sum.most / jobs_};
 }
 
 }  // namespace experiment
