@@ -15,6 +15,7 @@
 #include "app/json_summary.h"
 #include "app/outputs.h"
 #include "app/pipeline.h"
+#include "app/run_baselines.h"
 #include "app/run_files.h"
 #include "app/viewer_script.h"
 #include "geometry/errors.h"
@@ -33,6 +34,7 @@ struct RunArguments {
     std::string scales;
     std::string edge_lengths;
     std::string solvers = "greedy,local-search,branch-and-bound,cbc,auto";
+    std::string baselines = "none";
     std::string output = "out";
     bool is_without_remesh = false;
     bool is_without_viewer = false;
@@ -48,6 +50,7 @@ struct Run {
     Json meshes = Json::array();
     std::set<std::string> used_names;
     std::string viewer_script;
+    std::vector<std::string> baselines;
     int code = kDone;
 };
 
@@ -89,6 +92,9 @@ Run prepare(const RunArguments& arguments) {
     options.compared_solvers = compared_solvers(arguments.solvers);
     options.comparison = arguments.comparison.solve_options(arguments.common);
     options.is_remeshing = !arguments.is_without_remesh;
+    if (arguments.baselines != "none")
+        run.baselines = split_list(arguments.baselines, "--baselines");
+    check_baselines(run.baselines);
     if (!arguments.is_without_viewer) run.viewer_script = find_viewer_script();
     return run;
 }
@@ -144,6 +150,8 @@ void run_mesh(const std::string& path, Run& run, const RunArguments& arguments) 
     for (const ScaleRequest& request : run.scales) {
         if (is_interrupted()) break;
         ScaleRecord scale = process_scale(record, request, run.options, bar);
+        if (scale.has_remesh && !is_interrupted())
+            add_baselines(scale, record, run.options.adaptation.ratio, run.baselines);
         const std::vector<std::string> files =
             write_scale_files(record, scale, run.folder / name / request.folder());
         bar.clear();
@@ -244,6 +252,12 @@ void add_run_arguments(CLI::App& parser, RunArguments& arguments) {
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
         ->capture_default_str();
     parser.add_flag("--no-remesh", arguments.is_without_remesh, "Do not make triangle meshes");
+    parser
+        .add_option(
+            "--baselines", arguments.baselines,
+            "Other ways to a mesh, for the 3D view to set beside: own-plain, curvature-0.8, "
+            "quadrics, filtered, cgal, cgal-constrained, cgal-plain, ...")
+        ->capture_default_str();
     parser.add_flag("--no-viewer", arguments.is_without_viewer,
                     "A report with pictures only, smaller and without scripts");
 }

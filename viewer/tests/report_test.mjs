@@ -37,7 +37,7 @@ function makeReport() {
   run("model", "ribs", "--resolution", "0.05", "--spacing", "0.1", "-o", "ribs.off");
   run("model", "gear", "-o", "gear.off");
   run("run", "ribs.off", "gear.off", "--method", "sharp", "--scales", "6%,12%", "--solvers", "none",
-      "--threads", "1", "-o", "out");
+      "--baselines", "own-plain", "--threads", "1", "-o", "out");
   return pathToFileURL(path.join(folder, "out/report.html")).href;
 }
 
@@ -113,13 +113,14 @@ const tests = {
   "surfaces can be chosen": async (page) => {
     const select = page.locator(`${view} select`).first();
     const names = await select.locator("option").allTextContents();
-    assert.equal(names.length, 3);
+    assert.equal(names.length, 4);
+    assert.equal(names[3], "Plain remesh, no features");
     const seen = new Set();
     for (const name of names) {
       await select.selectOption(name);
       seen.add(await picture(page));
     }
-    assert.equal(seen.size, 3);
+    assert.equal(seen.size, 4);
     await select.selectOption(names[1]);
   },
 
