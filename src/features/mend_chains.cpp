@@ -128,9 +128,9 @@ private:
     std::vector<bool> is_boundary_;
 };
 
-/// Removes the weakest of the chains that make up the border of an island. One between two
-/// junctions lies on a crease; with more corners it may be a face of the shape, and stays unless a
-/// border is weak.
+/// Removes the weakest of the chains that make up the border of an island. One without
+/// junctions is a spike, one between two lies on a crease; with more corners it may be a face of
+/// the shape, and stays unless a border is weak.
 void Mender::dissolve(const std::vector<int>& border) {
     std::set<int> left(border.begin(), border.end()), junctions;
     for (int e : border)
@@ -138,6 +138,7 @@ void Mender::dissolve(const std::vector<int>& border) {
             if (valence_[v] != 2) junctions.insert(v);
     std::vector<int> weakest;
     double least = (junctions.size() == 2 ? kBubbleShare : kFaceShare) * high_angle_;
+    if (junctions.empty()) least = std::numbers::pi;
     while (!left.empty()) {
         const int first = *left.begin();
         std::set<int> run{first};

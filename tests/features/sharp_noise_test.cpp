@@ -56,6 +56,8 @@ TEST(SharpWithNoise, SmoothSurfacesHaveNone) {
             EXPECT_TRUE(detect_sharp(noisy_mesh(part, noise, 1)).arcs.empty())
                 << name << " noise " << noise;
     }
+    // A spike among fifty thousand vertices.
+    EXPECT_TRUE(detect_sharp(noisy_mesh(model_part("sphere", 100000), 0.2, 1)).arcs.empty());
 }
 
 TEST(SharpWithNoise, LengthsAreThoseOfTheCreases) {
