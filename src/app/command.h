@@ -39,6 +39,7 @@ Command add_adapt_command(CLI::App& program);
 Command add_check_command(CLI::App& program);
 Command add_remesh_command(CLI::App& program);
 Command add_measure_command(CLI::App& program);
+Command add_compare_command(CLI::App& program);
 Command add_solve_command(CLI::App& program);
 Command add_verify_command(CLI::App& program);
 Command add_convert_command(CLI::App& program);

@@ -18,6 +18,7 @@ struct MeasureArguments {
     std::string input;
     std::string reference;
     std::string spacing = "0.5%";
+    std::string network_path;
 };
 
 Json distance_json(const MeshDistance& distance, double spacing) {
@@ -39,11 +40,28 @@ int measure(const MeasureArguments& arguments) {
                                .resolve(bounding_box(reference.mesh).diagonal());
     const TriangleQuality quality = measure_triangles(mesh.mesh);
     const MeshDistance distance = measure_distance(mesh.mesh, reference.mesh, spacing);
+    const NormalDeviation normals = measure_normals(mesh.mesh, reference.mesh, spacing);
+    const bool has_network = !arguments.network_path.empty();
+    FeatureCurveNetwork network;
+    FeatureDeviation features;
+    EdgeShares edges;
+    if (has_network) {
+        network = read_network_for_mesh(arguments.network_path, reference);
+        features = measure_features(mesh.mesh, network, spacing);
+        if (network.scale > 0)
+            edges = measure_edges(mesh.mesh, network.scale, network.ratio * network.scale);
+    }
     if (arguments.common.is_json) {
-        print_json({{"mesh", mesh_json(mesh)},
-                    {"reference", mesh_json(reference)},
-                    {"triangles", quality_json(quality)},
-                    {"distance", distance_json(distance, spacing)}});
+        Json json{{"mesh", mesh_json(mesh)},
+                  {"reference", mesh_json(reference)},
+                  {"triangles", quality_json(quality)},
+                  {"distance", distance_json(distance, spacing)},
+                  {"normals", normals_json(normals)}};
+        if (has_network) json["features"] = feature_deviation_json(features);
+        if (has_network && network.scale > 0)
+            json["edges"] = {
+                {"below", edges.below}, {"inside", edges.inside}, {"above", edges.above}};
+        print_json(json);
         return kDone;
     }
     fmt::print("{}: {} vertices, {} triangles\n", mesh.name, quality.vertices, quality.faces);
@@ -57,6 +75,18 @@ int measure(const MeasureArguments& arguments) {
                distance.hausdorff, 100 * distance.hausdorff / distance.diagonal, distance.diagonal);
     fmt::print("mean distance         {:.5g} to the reference, {:.5g} back\n",
                distance.mean_forward, distance.mean_backward);
+    fmt::print("normals               {:.2f} degrees off on the average, rms {:.2f}\n",
+               normals.mean_degrees, normals.rms_degrees);
+    fmt::print(
+        "radius ratio          {:.3f} .. 1, mean {:.3f}; valences {} .. {}, {:.1f} % of six\n",
+        quality.min_radius_ratio, quality.mean_radius_ratio, quality.min_valence,
+        quality.max_valence, 100 * quality.share_regular);
+    if (has_network)
+        fmt::print("curves to mesh edges  at most {:.5g}, mean {:.5g}; nodes to vertices {:.5g}\n",
+                   features.max, features.mean, features.max_node);
+    if (has_network && network.scale > 0)
+        fmt::print("edges within S        {:.1f} %, shorter {:.1f} %, longer {:.1f} %\n",
+                   100 * edges.inside, 100 * edges.below, 100 * edges.above);
     return kDone;
 }
 
@@ -73,6 +103,8 @@ Command add_measure_command(CLI::App& program) {
         ->add_option("--spacing", arguments->spacing,
                      "Distance between samples; % of the reference's diagonal")
         ->capture_default_str();
+    parser->add_option("--network", arguments->network_path,
+                       "Network of the reference: how its curves lie in the mesh");
     add_mesh_arguments(*parser, arguments->mesh);
     add_common_arguments(*parser, arguments->common);
     parser->footer("Example:\n  scalefcn measure out/part/2pct/remesh.obj part.stl");

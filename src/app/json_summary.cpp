@@ -130,12 +130,29 @@ Json quality_json(const TriangleQuality& quality, double target) {
               {"share_under_30_degrees", quality.share_under_30},
               {"min_edge", quality.min_edge},
               {"mean_edge", quality.mean_edge},
-              {"max_edge", quality.max_edge}};
+              {"max_edge", quality.max_edge},
+              {"min_radius_ratio", quality.min_radius_ratio},
+              {"mean_radius_ratio", quality.mean_radius_ratio},
+              {"share_regular", quality.share_regular},
+              {"min_valence", quality.min_valence},
+              {"max_valence", quality.max_valence}};
     if (target > 0) {
         json["target_edge"] = target;
         json["min_edge_over_target"] = quality.min_edge / target;
     }
     return json;
+}
+
+Json normals_json(const NormalDeviation& normals) {
+    return {{"mean_degrees", normals.mean_degrees}, {"rms_degrees", normals.rms_degrees}};
+}
+
+Json feature_deviation_json(const FeatureDeviation& features) {
+    return {{"max", features.max},
+            {"mean", features.mean},
+            {"max_node", features.max_node},
+            {"mean_node", features.mean_node},
+            {"samples", features.samples}};
 }
 
 Json solver_comparisons_json(const std::vector<SolverComparison>& solvers, bool has_timings) {

@@ -21,6 +21,8 @@ Json adaptation_json(const AdaptationResult& result, const FeatureCurveNetwork& 
 Json conformity_json(const ConformityReport& report, bool is_detailed);
 /// `target` > 0 adds the target edge length and the shortest edge relative to it.
 Json quality_json(const TriangleQuality& quality, double target = 0);
+Json normals_json(const NormalDeviation& normals);
+Json feature_deviation_json(const FeatureDeviation& features);
 Json solver_comparisons_json(const std::vector<SolverComparison>& solvers, bool has_timings);
 Json solve_result_json(const labeling::LabelingProblem& problem,
                        const labeling::SolveResult& result, bool has_timings);

@@ -1,6 +1,8 @@
 #include "app/pipeline.h"
 
 #include <fmt/core.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <limits>
@@ -36,19 +38,22 @@ RemeshResult remesh_on(const FeatureCurveNetwork& network, const MeshRecord& rec
 }
 
 void add_remeshes(ScaleRecord& scale, const MeshRecord& record, const std::string& what,
-                  ProgressBar& bar) {
+                  int threads, ProgressBar& bar) {
     if (is_interrupted()) return;
-    bar.show(what + ": remeshing on the adapted network", 0.9);
-    RemeshResult adapted = remesh_on(scale.adaptation.network, record, scale.rmin);
+    bar.show(what + ": remeshing on the adapted and on the initial network", 0.9);
+    RemeshResult adapted, initial;
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        tbb::parallel_invoke(
+            [&] { adapted = remesh_on(scale.adaptation.network, record, scale.rmin); },
+            [&] { initial = remesh_on(record.initial, record, scale.rmin); });
+    });
     scale.remesh_quality = measure_triangles(adapted.mesh.mesh);
     scale.remesh = std::move(adapted.mesh);
     scale.remesh.curves = chain_vertex_pairs(adapted.feature_edges);
     scale.has_remesh = true;
     auto& warnings = scale.adaptation.report.warnings;
     warnings.insert(warnings.end(), adapted.warnings.begin(), adapted.warnings.end());
-    if (is_interrupted()) return;
-    bar.show(what + ": remeshing on the initial network", 0.95);
-    RemeshResult initial = remesh_on(record.initial, record, scale.rmin);
     scale.initial_quality = measure_triangles(initial.mesh.mesh);
     scale.has_initial_remesh = true;
     scale.compared.push_back(
@@ -140,7 +145,8 @@ ScaleRecord process_scale(const MeshRecord& record, const ScaleRequest& scale,
         bar.show(what + ": solvers side by side", 0.85);
         result.solvers = compare_solvers(problems.front(), "iteration 1", options);
     }
-    if (options.is_remeshing) add_remeshes(result, record, what, bar);
+    if (options.is_remeshing)
+        add_remeshes(result, record, what, options.common.thread_count(), bar);
     return result;
 }
 

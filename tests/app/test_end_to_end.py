@@ -48,6 +48,28 @@ class StepByStep(ProgramTest):
         self.assertEqual(measure["triangles"]["faces"], remesh["triangles"]["faces"])
         self.assertLess(measure["distance"]["hausdorff_over_diagonal"], 0.08)
 
+        self.assertEqual(remesh["broken_segments"], [])
+        measure = self.succeed_json("measure", "remesh.obj", "ribs.off", "--network",
+                                    "adapted.fcn.json")
+        self.assertLess(measure["features"]["max_node"], 1e-6)
+        self.assertAlmostEqual(sum(measure["edges"].values()), 1)
+
+    def test_compare_makes_every_way(self):
+        self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")
+        compare = self.succeed_json("compare", "ribs.off", "--scale", "8%", "--iterations", "3",
+                                    "--spacing", "2%", "-o", "ways")
+        names = [way["way"] for way in compare["ways"]]
+        self.assertIn("quadrics", names)
+        for way in compare["ways"]:
+            self.assertNotIn("failure", way)
+            self.assertGreater(way["triangles"]["faces"], 0)
+            self.assertTrue((self.folder / "ways" / (way["way"] + ".obj")).exists())
+        own = compare["ways"][names.index("own")]
+        self.assertEqual(own["broken_segments"], 0)
+        result = self.call("compare", "ribs.off", "--scale", "8%", "--ways", "nobody")
+        self.assertEqual(result.returncode, BAD_INPUT)
+        self.assertIn("nobody", result.stderr)
+
     def test_files_of_curves_alone_need_a_network(self):
         self.model("box", "--resolution", "0.3")
         result = self.call("remesh", "box.off", "--scale", "20%", "-o", "a.obj,a.sharp")

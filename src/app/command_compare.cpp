@@ -1,0 +1,152 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "app/adaptation_arguments.h"
+#include "app/command.h"
+#include "app/inputs.h"
+#include "app/interrupt.h"
+#include "app/json_summary.h"
+#include "app/outputs.h"
+#include "app/pipeline.h"
+#include "geometry/errors.h"
+#include "meshing/comparison.h"
+
+namespace fcn::app {
+namespace {
+
+struct CompareArguments {
+    CommonArguments common;
+    MeshArguments mesh;
+    DetectionArguments detection;
+    ScaleArguments scale;
+    AdaptationArguments adaptation;
+    std::string input;
+    std::string ways;
+    std::string folder;
+    std::string spacing = "0.5%";
+    int iterations = 10;
+};
+
+std::vector<std::string> chosen_ways(const CompareArguments& arguments) {
+    return arguments.ways.empty() ? remesher_names() : split_list(arguments.ways, "--ways");
+}
+
+Json comparison_json(const ComparisonRow& row, double edge_length, bool has_timings) {
+    Json json{{"way", row.name}};
+    if (!row.failure.empty()) {
+        json["failure"] = row.failure;
+        return json;
+    }
+    json["triangles"] = quality_json(row.quality, edge_length);
+    json["edges"] = {
+        {"below", row.edges.below}, {"inside", row.edges.inside}, {"above", row.edges.above}};
+    json["distance"] = {{"hausdorff", row.distance.hausdorff},
+                        {"mean_forward", row.distance.mean_forward},
+                        {"mean_backward", row.distance.mean_backward},
+                        {"samples", row.distance.samples},
+                        {"reference_diagonal", row.distance.diagonal}};
+    json["normals"] = normals_json(row.normals);
+    json["features"] = feature_deviation_json(row.features);
+    json["broken_segments"] = row.broken_segments;
+    json["forced_faces"] = row.forced_faces;
+    json["warnings"] = row.warnings;
+    if (has_timings) json["cpu_seconds"] = row.cpu_seconds;
+    return json;
+}
+
+void print_comparison_row(const ComparisonRow& row) {
+    if (!row.failure.empty()) {
+        fmt::print("{:<17} failed: {}\n", row.name, row.failure);
+        return;
+    }
+    const double diagonal = row.distance.diagonal;
+    fmt::print("{:<17} {:>9} {:>9.2f} {:>8.3f} % {:>8.3f} % {:>9.4f} % {:>9.5f} % {:>11.4f} %\n",
+               row.name, row.quality.faces, row.quality.min_angle_degrees,
+               100 * row.quality.share_under_15, 100 * row.quality.share_under_30,
+               100 * row.distance.hausdorff / diagonal, 100 * row.distance.mean_forward / diagonal,
+               100 * row.features.mean / diagonal);
+}
+
+int compare(const CompareArguments& arguments) {
+    const std::vector<std::string> ways = chosen_ways(arguments);
+    AdaptationOptions options = arguments.adaptation.options(arguments.common);
+    const ScaleRequest scale = arguments.scale.request();
+    const LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
+    const double diagonal = bounding_box(mesh.mesh).diagonal();
+    options.rmin = resolve_scale(scale, diagonal);
+    const Detection detection =
+        detect_network(mesh, arguments.detection, arguments.common.thread_count());
+    if (!arguments.folder.empty()) std::filesystem::create_directories(arguments.folder);
+    ProgressBar bar(!arguments.common.is_quiet);
+    const AdaptationResult adapted =
+        adapt_with_progress(mesh, detection.network, options, mesh.name, bar);
+    bar.clear();
+    const ComparisonInput input{mesh,
+                                detection.network,
+                                adapted.network,
+                                options.rmin,
+                                options.ratio,
+                                arguments.iterations,
+                                parse_length(arguments.spacing, "--spacing").resolve(diagonal)};
+    const double edge_length = kEdgeLengthFactor * options.rmin;
+    if (!arguments.common.is_json)
+        fmt::print(
+            "edge length {:.5g}; distances in % of the diagonal {:.5g}, samples every {:.5g}\n"
+            "{:<17} {:>9} {:>9} {:>10} {:>10} {:>11} {:>11} {:>13}\n",
+            edge_length, diagonal, input.sample_spacing, "way", "triangles", "smallest", "under 15",
+            "under 30", "Hausdorff", "mean", "mean curves");
+    Json rows = Json::array();
+    std::size_t vertices =
+        static_cast<std::size_t>(std::max<std::size_t>(4, mesh.mesh.n_vertices() / 10));
+    for (const std::string& way : ways) {
+        if (is_interrupted()) break;
+        ComparisonRow row = run_remesher(way, input, vertices);
+        if (way == "own" && row.failure.empty()) vertices = row.quality.vertices;
+        if (!arguments.folder.empty() && row.failure.empty())
+            save_mesh((std::filesystem::path(arguments.folder) / (way + ".obj")).string(),
+                      row.mesh);
+        if (!arguments.common.is_json) print_comparison_row(row);
+        rows.push_back(comparison_json(row, edge_length, !arguments.common.is_timeless));
+    }
+    if (arguments.common.is_json)
+        print_json({{"mesh", mesh_json(mesh)},
+                    {"rmin", options.rmin},
+                    {"edge_length", edge_length},
+                    {"sample_spacing", input.sample_spacing},
+                    {"ways", rows}});
+    return kDone;
+}
+
+}  // namespace
+
+Command add_compare_command(CLI::App& program) {
+    auto arguments = std::make_shared<CompareArguments>();
+    CLI::App* parser = program.add_subcommand(
+        "compare", "Remeshes at one scale with, without and with other choices of features");
+    parser->add_option("MESH", arguments->input, "Triangle mesh (- for standard input)")
+        ->required();
+    parser->add_option("--network", arguments->detection.network_path,
+                       "Initial network; without one, features are detected");
+    parser->add_option("--ways", arguments->ways,
+                       "Comma-separated (default: all): own, own-initial, own-plain, curvature-T "
+                       "(T in radians), quadrics, filtered, cgal, cgal-constrained, cgal-initial, "
+                       "cgal-plain");
+    parser->add_option("-o,--output", arguments->folder, "Folder for the meshes, WAY.obj each");
+    parser->add_option("--spacing", arguments->spacing, "Distance between samples")
+        ->capture_default_str();
+    parser->add_option("--iterations", arguments->iterations, "Rounds of remeshing")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    add_scale_arguments(*parser, arguments->scale);
+    add_adaptation_arguments(*parser, arguments->adaptation);
+    add_detection_arguments(*parser, arguments->detection);
+    add_mesh_arguments(*parser, arguments->mesh);
+    add_common_arguments(*parser, arguments->common);
+    parser->footer("Example:\n  scalefcn compare part.stl --scale 2%");
+    return {parser, [arguments] { return compare(*arguments); }};
+}
+
+}  // namespace fcn::app
