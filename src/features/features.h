@@ -33,8 +33,8 @@ struct VsaOptions {
     std::vector<int> seed_faces;   ///< optional; fixes the first seeds
     bool is_straightening = true;  ///< straighten the patch borders
     double min_patch_area = 0;     ///< relative to the mean patch; smaller ones dissolve
-    /// Patches with less error per area are not split: about 0.06 degrees. detect_vsa() raises it to
-    /// what noise leaves.
+    /// Patches with less error per area are not split: about 0.06 degrees. detect_vsa() raises it
+    /// to what noise leaves.
     double negligible_error = 1e-6;
     /// Radians (40 degrees): creases above it that no patch border takes become arcs of their own
     /// (both their patches are the same); 0 = none.
