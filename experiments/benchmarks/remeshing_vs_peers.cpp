@@ -324,9 +324,9 @@ void run_speed(const Arguments& arguments) {
                     mesh.mesh.n_faces(), quality.faces, options.iterations,
                     result.feature_edges.size(), seconds, peak_megabytes(),
                     quality.min_angle_degrees, 100 * quality.share_under_30);
-        std::printf("<!-- embedding %.2f coarsening %.2f iterating %.2f improving %.2f -->\n",
-                    result.statistics.embedding, result.statistics.coarsening,
-                    result.statistics.iterating, result.statistics.improving);
+        std::fprintf(stderr, "embedding %.2f coarsening %.2f iterating %.2f improving %.2f s\n",
+                     result.statistics.embedding, result.statistics.coarsening,
+                     result.statistics.iterating, result.statistics.improving);
         std::fflush(stdout);
     }
 }
