@@ -23,7 +23,6 @@ NETGEN = ("netgen-doc", "usr/share/doc/netgen/examples")
 GMSH = ("gmsh-doc", "usr/share/doc/gmsh-doc")
 PARTS = {
     "CrankArm": (*OCC, "occ/CrankArm.brep"),
-    "pump-nut": (*OCC, "occ/Pump_Nut.brep"),
     "pump-cover": (*OCC, "occ/Pump_TopCover.brep"),
     "hammer": (*OCC, "occ/hammer.brep"),
     "bottle": (*OCC, "occ/bottle.brep"),
