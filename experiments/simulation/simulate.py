@@ -23,7 +23,6 @@ import tempfile
 try:
     import numpy as np
     from scipy import sparse
-    from scipy.spatial import cKDTree
 except ImportError as error:
     print(f"simulate.py: {error.name} is not installed (scripts/setup_experiments.sh numpy scipy)", file=sys.stderr)
     sys.exit(77)
@@ -35,12 +34,16 @@ GMSH_SECONDS = 300
 
 
 def read_off(path):
-    words = iter(path.read_text(encoding="ascii").split())
-    if next(words) != "OFF":
-        raise ValueError(f"{path}: not an OFF file")
-    vertices, faces, _ = (int(next(words)) for _ in range(3))
-    points = np.array([float(next(words)) for _ in range(3 * vertices)]).reshape(-1, 3)
-    triangles = np.array([int(next(words)) for _ in range(4 * faces)]).reshape(-1, 4)[:, 1:]
+    words = path.read_text(encoding="ascii").split()
+    try:
+        if words[0] != "OFF":
+            raise ValueError
+        vertices, faces = int(words[1]), int(words[2])
+        middle = 4 + 3 * vertices
+        points = np.array(words[4:middle], dtype=float).reshape(vertices, 3)
+        triangles = np.array(words[middle : middle + 4 * faces], dtype=int).reshape(faces, 4)[:, 1:]
+    except (ValueError, IndexError) as error:
+        raise ValueError(f"{path}: not an OFF file of triangles") from error
     return points, triangles
 
 
@@ -48,8 +51,8 @@ def write_surface(path, points, triangles):
     """As gmsh's format 2.2, one discrete surface, so that gmsh does not look for features."""
     with open(path, "w", encoding="ascii") as file:
         file.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(points)}\n")
-        for number, point in enumerate(points, 1):
-            file.write(f"{number} {point[0]!r} {point[1]!r} {point[2]!r}\n".replace("np.float64(", "").replace(")", ""))
+        for number, (x, y, z) in enumerate(points.tolist(), 1):
+            file.write(f"{number} {x!r} {y!r} {z!r}\n")
         file.write(f"$EndNodes\n$Elements\n{len(triangles)}\n")
         for number, (a, b, c) in enumerate(triangles + 1, 1):
             file.write(f"{number} 2 2 1 1 {a} {b} {c}\n")
@@ -188,6 +191,25 @@ def surfaces(part, percent, program, folder):
         yield name, *read_off(target), length
 
 
+def print_summary(rows):
+    """Medians over the parts of which every surface could be tetrahedralised."""
+    kinds = list(dict.fromkeys(row["surface"] for row in rows))
+    parts = list(dict.fromkeys(row["part"] for row in rows))
+    made = {(row["part"], row["surface"]): row for row in rows if row.get("iterations")}
+    common = [part for part in parts if all((part, kind) in made for kind in kinds)]
+    if not common:
+        return
+    print(f"\n| surface | tetrahedralised | medians of {len(common)}: worst quality | shortest altitude | CG | CG, diagonal |")
+    print("|---|---|---|---|---|---|")
+    for kind in kinds:
+        chosen = [made[part, kind] for part in common]
+        middle = [
+            float(np.median([row[key] for row in chosen])) for key in ("worst_quality", "shortest_altitude")
+        ] + [float(np.median([row["iterations"][k] for row in chosen])) for k in (0, 1)]
+        count = sum((part, kind) in made for part in parts)
+        print(f"| {kind} | {count} of {len(parts)} | {middle[0]:.4f} | {middle[1]:.5f} | {middle[2]:.0f} | {middle[3]:.0f} |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("parts", nargs="+", type=pathlib.Path, metavar="PART.off")
@@ -204,6 +226,9 @@ def main():
     print("| part | surface | triangles | tetrahedra | worst quality | mean quality | shortest altitude | CG | CG, diagonal |")
     print("|---|---|---|---|---|---|---|---|---|")
     rows = []
+    for part in arguments.parts:
+        if not part.is_file():
+            parser.error(f"{part}: no such file")
     for part in arguments.parts:
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
@@ -229,10 +254,14 @@ def main():
                         flush=True,
                     )
                 rows.append(row)
+    print_summary(rows)
     if arguments.json:
         arguments.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except (OSError, ValueError, RuntimeError) as error:
+        sys.exit(f"simulate.py: {error}")
