@@ -171,9 +171,12 @@ int execute_one(const ExecuteArguments& arguments) {
     if (job == plan.jobs.end()) {
         throw labeling::InputError(arguments.folder.string() + ": no run " + arguments.key);
     }
-    const Record record = execute(plan, *job, arguments.folder, arguments.options);
+    ExecuteOptions options = arguments.options;
+    options.stop = labeling::stop_at_signals();
+    const auto record = execute(plan, *job, arguments.folder, options);
+    if (!record) return kNotFinished;
     // The first one counts. A second one comes from a process that was given up and made again.
-    if (!has_record(arguments.folder, job->key)) write_record(record, arguments.folder);
+    if (!has_record(arguments.folder, job->key)) write_record(*record, arguments.folder);
     return kDone;
 }
 

@@ -51,6 +51,7 @@ struct Launch {
     std::vector<char*> words;
     std::int64_t memory_bytes = 0, file_bytes = 0;
     pid_t parent = 0;
+    int signal_when_alone = SIGKILL;
     int gate = -1;  ///< end of a pipe; the child waits until it closes
 };
 
@@ -63,7 +64,7 @@ struct Launch {
 /// In the child: never returns.
 [[noreturn]] void launch(const Launch& l, int pipe) {
     ::setpgid(0, 0);
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    ::prctl(PR_SET_PDEATHSIG, l.signal_when_alone);
     if (::getppid() != l.parent) ::_exit(127);
     char nothing = 0;
     while (l.gate >= 0 && ::read(l.gate, &nothing, 1) < 0 && errno == EINTR) {
@@ -175,6 +176,7 @@ ProgramOutcome run_program(const ProgramRun& run) {
                  run.memory_bytes,
                  run.file_bytes,
                  ::getpid(),
+                 run.signal_when_alone,
                  -1};
     for (std::string& word : words) start.words.push_back(word.data());
     start.words.push_back(nullptr);

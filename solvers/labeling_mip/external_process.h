@@ -17,6 +17,7 @@ struct ProgramRun {
     std::int64_t memory_bytes = 0;      ///< address space of each process; 0 = no limit
     std::int64_t file_bytes = 0;        ///< largest file it may write; 0 = no limit
     double grace_seconds = 0.3;         ///< between SIGTERM and SIGKILL
+    int signal_when_alone = 9;          ///< that it gets when its parent dies
     std::function<bool()> has_to_end;   ///< asked every 10 ms; true: stop the program
     /// Called with the process's number once it exists and before the program starts in it.
     std::function<void(int)> before_start;

@@ -23,24 +23,28 @@ constexpr const char* kProblem =
     "x 1 2\n"
     "b 1 3 10\n";  // best: labels 1 and 3, 17
 
+constexpr double kShort = 0.5;  // seconds
+
 struct BadSolver {
     const char* name;
     const char* script;  ///< sh; $1 is the problem, $2 the solution, $3 the result
     Outcome outcome;
     const char* part_of_message;
+    double seconds = 60;  ///< of time; few for those that never end by themselves
 };
 
 class BadDays : public ::testing::TestWithParam<BadSolver> {
 protected:
     /// A campaign of one run.
-    Record record_of(const std::string& script) {
+    Record record_of(const std::string& script, double seconds = 60) {
         labeling::write_text_file(folder_.path() / "p.lab", kProblem);
         labeling::write_text_file(folder_.path() / "solver.sh", script);
         labeling::write_text_file(
             folder_.path() / "c.toml",
-            "name = \"bad\"\n[limits]\ntime = 0.5\nmargin = 0.2\nmemory = \"200MiB\"\n"
-            "disk = \"20MiB\"\n[[problems]]\nfiles = \"p.lab\"\n[[solvers]]\nname = \"bad\"\n"
-            "program = \"sh " +
+            "name = \"bad\"\n[limits]\ntime = " + std::to_string(seconds) +
+                "\nmargin = 0.2\nmemory = \"200MiB\"\n"
+                "disk = \"20MiB\"\n[[problems]]\nfiles = \"p.lab\"\n[[solvers]]\nname = \"bad\"\n"
+                "program = \"sh " +
                 (folder_.path() / "solver.sh").string() + " {problem} {solution} {result}\"\n");
         const auto result =
             run_experiment(folder_.path(), {"run", "c.toml", "-o", "out", "--no-pin"});
@@ -53,7 +57,7 @@ protected:
 };
 
 TEST_P(BadDays, AreRecordedAsWhatTheyAre) {
-    const Record record = record_of(GetParam().script);
+    const Record record = record_of(GetParam().script, GetParam().seconds);
     EXPECT_EQ(to_string(record.outcome), to_string(GetParam().outcome)) << record.message;
     EXPECT_NE(record.message.find(GetParam().part_of_message), std::string::npos)
         << "message: " << record.message;
@@ -88,12 +92,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadSolver{"nothing", "exit 0", Outcome::NoSolution, ""},
         BadSolver{"fails", "echo out of luck >&2; exit 9", Outcome::Crash, "out of luck"},
         BadSolver{"dies", "kill -SEGV $$", Outcome::Crash, "signal 11"},
-        BadSolver{"hangs", "while :; do :; done", Outcome::Timeout, "over its time"},
+        BadSolver{"kills_its_keeper", "kill -KILL $PPID; while :; do :; done", Outcome::Crash,
+                  "watched over it died of signal 9"},
+        BadSolver{"hangs", "while :; do :; done", Outcome::Timeout, "over its time", kShort},
         BadSolver{"ignores_sigterm", "trap '' TERM; while :; do :; done", Outcome::Timeout,
-                  "did not end when asked"},
+                  "did not end when asked", kShort},
         BadSolver{"answers_when_ended",
                   "trap \"printf 'v 17\\n1\\n3\\n' > $2; exit 0\" TERM; while :; do :; done",
-                  Outcome::Timeout, "over its time"},
+                  Outcome::Timeout, "over its time", kShort},
         BadSolver{"allocates_without_end",
                   "exec python3 -c 'x=[]\nwhile True: x.append(bytearray(b\"1\")*10000000)'",
                   Outcome::OutOfMemory, "over its memory"},
@@ -121,8 +127,8 @@ TEST_F(BadDays, NothingOfASolverThatDetachesIsLeft) {
 }
 
 TEST_F(BadDays, AnswerOfASolverThatWasEndedIsKept) {
-    const Record record =
-        record_of("trap \"printf 'v 17\\n1\\n3\\n' > $2; exit 0\" TERM; while :; do :; done");
+    const Record record = record_of(
+        "trap \"printf 'v 17\\n1\\n3\\n' > $2; exit 0\" TERM; while :; do :; done", kShort);
     EXPECT_EQ(record.outcome, Outcome::Timeout);
     EXPECT_EQ(record.value, 17);
 }
@@ -176,7 +182,7 @@ TEST(Clock, AJumpingCalendarChangesNoDuration) {
         if (child == 0) {
             ExecuteOptions options;
             options.calendar = [&] { return std::string(calendar[k]); };
-            write_record(execute(plan, plan.jobs[k], folder.path() / "out", options),
+            write_record(*execute(plan, plan.jobs[k], folder.path() / "out", options),
                          folder.path() / "out");
             ::_exit(0);
         }

@@ -5,6 +5,7 @@
 #include "experiment/campaign.h"
 
 #include <sched.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <atomic>
@@ -20,6 +21,7 @@
 #include "experiment/folder_lock.h"
 #include "experiment/mesh_sources.h"
 #include "experiment/problem_sources.h"
+#include "experiment/process_tree.h"
 #include "experiment/programs.h"
 #include "experiment/provenance.h"
 #include "experiment/run_command.h"
@@ -35,6 +37,7 @@ namespace fs = std::filesystem;
 using labeling::InputError;
 
 constexpr int kMostAttempts = 3;
+constexpr double kGraceSeconds = 10;  ///< for `execute` to end its solver
 constexpr const char* kStartTicks = "10000000";
 
 std::string last_line(const fs::path& file) {
@@ -101,6 +104,7 @@ public:
 
     CampaignOutcome run() {
         std::error_code ignored;
+        kill_processes_of(folder_ / "scratch");  // of an earlier runner that was killed
         fs::remove_all(folder_ / "scratch", ignored);
         fs::create_directories(folder_ / "records");
         database_.store_plan(plan_);
@@ -173,6 +177,7 @@ private:
         const fs::path log = folder_ / "scratch" / (job.key + ".log");
         fs::create_directories(log.parent_path());
         std::string reason;
+        labeling::ProgramOutcome outcome;
         for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
             labeling::ProgramRun run;
             run.words = {own_program("scalefcn-experiment").string(),
@@ -185,12 +190,23 @@ private:
             run.output_file = fs::absolute(log).string() + ".output";
             run.error_file = fs::absolute(log);
             run.has_to_end = [this] { return options_.stop.stop_requested(); };
-            const auto outcome = labeling::run_program(run);
+            run.grace_seconds = kGraceSeconds;
+            run.signal_when_alone = SIGTERM;  // it has a solver to end
+            outcome = labeling::run_program(run);
             if (options_.stop.stop_requested()) return;
             if (const auto record = read_record(folder_, job.key)) return keep(job, *record);
             reason = last_line(log);
             // Bad input and a disk that is full do not get better by trying again.
             if (outcome.end == labeling::ProgramEnd::Exited && outcome.exit_code == 3) break;
+        }
+        if (outcome.end == labeling::ProgramEnd::Crashed) {
+            // The solver's fault, as far as one can know: it would stand in the way for ever.
+            const Record record =
+                lost_run(plan_, job,
+                         "what watched over it died of signal " + std::to_string(outcome.signal) +
+                             ", " + std::to_string(kMostAttempts) + " times");
+            write_record(record, folder_);
+            return keep(job, record);
         }
         throw InputError("no record of " + describe(plan_, job) + " (" + job.key +
                          "): " + (reason.empty() ? "its process ended without a word" : reason));

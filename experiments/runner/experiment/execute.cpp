@@ -163,7 +163,8 @@ private:
 };
 
 labeling::ProgramOutcome run_watched(const RunCommand& command, const Limits& limits,
-                                     const fs::path& scratch, Observed& seen, Measures& measures) {
+                                     const fs::path& scratch, const std::stop_token& stop,
+                                     Observed& seen, Measures& measures) {
     Watch watch(limits, scratch);
     InstructionCounter counter;
     labeling::ProgramRun run;
@@ -173,7 +174,7 @@ labeling::ProgramOutcome run_watched(const RunCommand& command, const Limits& li
     run.error_file = scratch / "errors.txt";
     run.file_bytes = limits.disk_mib << 20;
     run.grace_seconds = kGraceSeconds;
-    run.has_to_end = [&] { return watch.has_to_end(); };
+    run.has_to_end = [&] { return stop.stop_requested() || watch.has_to_end(); };
     run.before_start = [&](int process) { counter.watch(process); };
     const labeling::ProgramOutcome outcome = labeling::run_program(run);
     seen.orphans_left = kill_descendants();
@@ -189,10 +190,16 @@ labeling::ProgramOutcome run_watched(const RunCommand& command, const Limits& li
     return outcome;
 }
 
+void add_provenance(const PlannedProblem& problem, const Job& job, Record& record) {
+    record.provenance = provenance(own_program("labeling-solve"));
+    record.provenance["instance"] = problem.hash;
+    record.provenance["seed"] = std::to_string(job.seed);
+}
+
 }  // namespace
 
-Record execute(const Plan& plan, const Job& job, const fs::path& folder,
-               const ExecuteOptions& options) {
+std::optional<Record> execute(const Plan& plan, const Job& job, const fs::path& folder,
+                              const ExecuteOptions& options) {
     const PlannedProblem& planned = plan.problems.at(job.problem);
     const SolverConfig& solver = plan.solvers.at(job.solver);
     adopt_orphans();
@@ -211,7 +218,9 @@ Record execute(const Plan& plan, const Job& job, const fs::path& folder,
     const RunCommand command = run_command(plan, job, home, scratch.path());
     record.command = without(command.text, own_mark());
     Observed seen;
-    seen.outcome = run_watched(command, solver.limits, scratch.path(), seen, record.measures);
+    seen.outcome =
+        run_watched(command, solver.limits, scratch.path(), options.stop, seen, record.measures);
+    if (options.stop.stop_requested()) return std::nullopt;
     seen.result_file = command.result_file;
     seen.solution_file = command.solution_file;
     seen.error_file = scratch.path() / "errors.txt";
@@ -231,9 +240,17 @@ Record execute(const Plan& plan, const Job& job, const fs::path& folder,
             keep_if_best(home, planned.hash, seen.solution_file, *record.value);
         }
     }
-    record.provenance = provenance(own_program("labeling-solve"));
-    record.provenance["instance"] = planned.hash;
-    record.provenance["seed"] = std::to_string(job.seed);
+    add_provenance(planned, job, record);
+    return record;
+}
+
+Record lost_run(const Plan& plan, const Job& job, const std::string& message) {
+    Record record;
+    record.key = job.key;
+    record.outcome = Outcome::Crash;
+    record.message = message;
+    record.measures.started_at = calendar_now();
+    add_provenance(plan.problems.at(job.problem), job, record);
     return record;
 }
 

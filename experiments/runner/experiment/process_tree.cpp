@@ -1,6 +1,7 @@
 // A solver may fork, detach and ignore signals. The process that runs it adopts whatever it leaves
 // behind (PR_SET_CHILD_SUBREAPER), so that everything it ever started is found below this process
-// and can be ended: nothing of one run disturbs the next.
+// and can be ended: nothing of one run disturbs the next. When that process itself was killed, what
+// is left is known by its environment, which a process cannot change once it has started.
 #include "experiment/process_tree.h"
 
 #include <dirent.h>
@@ -16,9 +17,12 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <string_view>
 
 namespace experiment {
 namespace {
+
+constexpr int kMostRounds = 200;
 
 struct Process {
     pid_t id = 0, parent = 0;
@@ -51,6 +55,17 @@ std::vector<Process> all_processes() {
     return processes;
 }
 
+/// Was it started with a TMPDIR below `folder`, given with a slash at its end?
+bool is_of(pid_t process, const std::string& folder) {
+    std::ifstream file("/proc/" + std::to_string(process) + "/environ", std::ios::binary);
+    for (std::string variable; std::getline(file, variable, '\0');) {
+        if (variable.starts_with("TMPDIR=")) {
+            return std::string_view(variable).substr(7).starts_with(folder);
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 void adopt_orphans() { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
@@ -80,7 +95,6 @@ double resident_mib(const std::vector<pid_t>& processes) {
 }
 
 int kill_descendants() {
-    constexpr int kMostRounds = 200;
     std::vector<pid_t> left;
     for (int round = 0; round < kMostRounds; ++round) {
         while (::waitpid(-1, nullptr, WNOHANG) > 0) {
@@ -91,6 +105,20 @@ int kill_descendants() {
         ::poll(nullptr, 0, 5);
     }
     return static_cast<int>(left.size());
+}
+
+void kill_processes_of(const std::filesystem::path& folder) {
+    const std::string prefix = std::filesystem::absolute(folder).string() + "/";
+    for (int round = 0; round < kMostRounds; ++round) {
+        bool is_clear = true;
+        for (const Process& p : all_processes()) {
+            if (p.is_dead || p.id == ::getpid() || !is_of(p.id, prefix)) continue;
+            is_clear = false;
+            ::kill(p.id, SIGKILL);
+        }
+        if (is_clear) return;
+        ::poll(nullptr, 0, 5);
+    }
 }
 
 }  // namespace experiment
