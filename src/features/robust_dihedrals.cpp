@@ -257,7 +257,7 @@ bool is_isolated(const MeshArrays& arrays, const std::vector<double>& angles, in
 }
 
 RobustDihedrals robust_dihedrals(const MeshArrays& arrays, double low_angle, int threads) {
-    RobustDihedrals result{arrays.dihedrals, std::vector<bool>(arrays.edge_count(), false), {}, 0};
+    RobustDihedrals result{arrays.dihedrals, std::vector<bool>(arrays.edge_count(), false), {}, 0, 0};
     std::vector<bool> is_candidate(arrays.edge_count());
     for (int e = 0; e < arrays.edge_count(); ++e)
         is_candidate[e] = std::abs(arrays.dihedrals[e]) >= low_angle;
@@ -282,6 +282,7 @@ RobustDihedrals robust_dihedrals(const MeshArrays& arrays, double low_angle, int
                                : filtered[e];
     }
     result.normals = std::move(without_noise.normals);
+    result.displacement = without_noise.displacement;
     result.residual = without_noise.residual;
     return result;
 }

@@ -13,6 +13,7 @@
 
 #include "features/edge_chains.h"
 #include "features/mend_chains.h"
+#include "features/rounded_edges.h"
 #include "features/sharp_edges.h"
 #include "geometry/errors.h"
 
@@ -127,6 +128,7 @@ std::vector<bool> sharp_edges(const MeshArrays& arrays, const RobustDihedrals& d
                               const SharpOptions& options, int min_edge_count) {
     std::vector<bool> is_sharp = grow_chains(arrays, dihedrals, options);
     mend_chains(arrays, dihedrals, options.high_angle, is_sharp);
+    drop_rounded_edges(arrays, dihedrals, options.high_angle, is_sharp);
     drop_short_chains(arrays, dihedrals.angles, options.min_length, min_edge_count, is_sharp);
     return is_sharp;
 }

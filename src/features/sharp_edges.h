@@ -13,6 +13,7 @@ struct RobustDihedrals {
     std::vector<double> angles;       ///< radians, per edge
     std::vector<bool> is_noisy_edge;  ///< the angle is that of filtered normals
     std::vector<Vec3> normals;        ///< of faces, filtered where it is noisy; empty if nowhere
+    double displacement = 0;          ///< of vertices by noise, mesh units; see FilteredNormals
     double residual = 0;              ///< of the filter, see FilteredNormals
 };
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "features/features.h"
 #include "features/sharp_edges.h"
 #include "geometry/models.h"
@@ -119,6 +122,54 @@ TEST(SharpWithNoise, StraighteningKeepsCornersAndCleanPlaces) {
     dihedrals.is_noisy_edge.assign(arrays.edge_count(), false);
     const NetworkArc same = straighten_noisy(arrays, dihedrals, edges).arcs[0];
     EXPECT_EQ(same.length(), edges.network.arcs[0].length());
+}
+
+/// A square tube of edge length one whose edges are rounded with a radius; open at both ends.
+KnownPart rounded_tube(double radius) {
+    constexpr double kSide = 16;
+    constexpr int kLength = 60;
+    std::vector<Vec3> profile;
+    for (int side = 0; side < 4; ++side) {
+        const double turn = side * std::numbers::pi / 2;
+        const auto add = [&](double x, double y) {
+            profile.emplace_back(std::cos(turn) * x - std::sin(turn) * y,
+                                 std::sin(turn) * x + std::cos(turn) * y, 0);
+        };
+        const double half = kSide / 2, straight = kSide - 2 * radius;
+        const int steps = static_cast<int>(std::round(straight));
+        for (int i = 0; i < steps; ++i) add(half, radius - half + straight * i / steps);
+        const int facets = static_cast<int>(std::round(radius * std::numbers::pi / 2));
+        for (int i = 0; i < facets; ++i) {
+            const double angle = i * std::numbers::pi / 2 / facets;
+            add(half - radius + radius * std::cos(angle), half - radius + radius * std::sin(angle));
+        }
+    }
+    KnownPart part;
+    part.name = "tube of radius " + std::to_string(radius);
+    const int count = static_cast<int>(profile.size());
+    for (int z = 0; z <= kLength; ++z)
+        for (const Vec3& p : profile) part.points.emplace_back(p.x(), p.y(), z);
+    for (int z = 0; z < kLength; ++z) {
+        for (int i = 0; i < count; ++i) {
+            const int a = z * count + i, b = z * count + (i + 1) % count;
+            part.triangles.push_back({a, b, b + count});
+            part.triangles.push_back({a, b + count, a + count});
+        }
+    }
+    return part;
+}
+
+TEST(SharpWithNoise, RoundedEdgesAreNone) {
+    for (double noise : {0.05, 0.08, 0.1}) {
+        for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+            SCOPED_TRACE("noise " + std::to_string(noise) + ", seed " + std::to_string(seed));
+            const auto length = [&](double radius) {
+                return detect_sharp(noisy_mesh(rounded_tube(radius), noise, seed)).total_length();
+            };
+            EXPECT_NEAR(length(0), 4 * 60, 0.03 * 4 * 60);
+            for (double radius : {2, 3}) EXPECT_LE(length(radius), 0.1 * 4 * 60) << radius;
+        }
+    }
 }
 
 TEST(SharpWithNoise, CadPartsKeepTheirCurves) {
