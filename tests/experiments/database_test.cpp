@@ -1,6 +1,9 @@
 #include "experiment/database.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "experiment/estimate.h"
 #include "experiment/folder_lock.h"
@@ -64,6 +67,49 @@ TEST(Database, SaysWhatIsWrongWithAFileThatIsNone) {
                   std::string::npos)
             << error.what();
     }
+}
+
+/// How many records somebody reads who may write nothing there; -1: an error.
+int records_for_a_stranger(const std::filesystem::path& folder) {
+    ::chmod(folder.c_str(), 0555);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        constexpr uid_t kNobody = 65534;
+        if (::geteuid() == 0 && ::setresuid(kNobody, kNobody, kNobody) != 0) ::_exit(100);
+        try {
+            ::_exit(static_cast<int>(Database(folder, Database::Access::Read).records().size()));
+        } catch (const labeling::InputError&) {
+            ::_exit(101);
+        }
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ::chmod(folder.c_str(), 0755);
+    return WIFEXITED(status) && WEXITSTATUS(status) < 100 ? WEXITSTATUS(status) : -1;
+}
+
+TEST(Database, IsReadWhereNobodyCanWrite) {
+    const labeling::ScratchFolder folder;
+    EXPECT_EQ(records_for_a_stranger(folder.path()), 0);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "campaign.sqlite"));
+    // A name that an address would not hold as it is.
+    const auto home = folder.path() / "50% of it?";
+    std::filesystem::create_directories(home);
+    ::chmod(folder.path().c_str(), 0755);
+    Database(home).store(some_record("a"));
+    EXPECT_EQ(records_for_a_stranger(home), 1);
+    // While somebody else writes.
+    Database writer(home);
+    writer.store(some_record("b"));
+    EXPECT_EQ(Database(home, Database::Access::Read).records().size(), 2u);
+}
+
+TEST(Database, WithoutTablesHasNoRecords) {
+    const labeling::ScratchFolder folder;
+    labeling::write_text_file(folder.path() / "campaign.sqlite", "");
+    EXPECT_TRUE(Database(folder.path(), Database::Access::Read).records().empty());
+    labeling::write_text_file(folder.path() / "campaign.sqlite", std::string(5000, 'x'));
+    EXPECT_THROW(Database(folder.path(), Database::Access::Read), labeling::InputError);
 }
 
 TEST(Record, IsReadBackFromJson) {

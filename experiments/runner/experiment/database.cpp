@@ -6,7 +6,9 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
+#include <vector>
 
 #include "experiment/execute.h"
 #include "experiment/hash.h"
@@ -17,7 +19,10 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int kBusyMilliseconds = 10000;
+
 constexpr const char* kSchema = R"sql(
+BEGIN IMMEDIATE;
 CREATE TABLE IF NOT EXISTS campaign (key TEXT PRIMARY KEY, value TEXT NOT NULL);
 CREATE TABLE IF NOT EXISTS problems (
     id INTEGER PRIMARY KEY, name TEXT UNIQUE NOT NULL, file TEXT NOT NULL, grp TEXT NOT NULL,
@@ -40,6 +45,7 @@ CREATE TABLE IF NOT EXISTS runs (
 CREATE TABLE IF NOT EXISTS trace (
     run TEXT NOT NULL, position INTEGER NOT NULL, seconds REAL, work INTEGER, value INTEGER,
     bound INTEGER, PRIMARY KEY (run, position)) WITHOUT ROWID;
+COMMIT;
 )sql";
 
 /// One statement; parameters in order, then step by step.
@@ -161,29 +167,75 @@ Measures measures_from(const Statement& row, int first) {
     return m;
 }
 
+[[noreturn]] void fail_to_open(sqlite3* handle, const std::string& name) {
+    throw labeling::InputError(name + ": " +
+                               (handle != nullptr ? sqlite3_errmsg(handle) : "no memory"));
+}
+
+/// As in the address of a file.
+std::string percent_encoded(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                              (c >= '0' && c <= '9') || c == '/' || c == '.' || c == '-' ||
+                              c == '_';
+        char code[4];
+        std::snprintf(code, sizeof code, "%%%02X", static_cast<unsigned char>(c));
+        result += is_plain ? std::string(1, c) : std::string(code);
+    }
+    return result;
+}
+
 }  // namespace
 
-Database::Database(const std::filesystem::path& folder)
+Database::Database(const std::filesystem::path& folder, Access access)
     : name_((folder / "campaign.sqlite").string()) {
-    if (sqlite3_open(name_.c_str(), &handle_) != SQLITE_OK) {
-        const std::string reason = handle_ != nullptr ? sqlite3_errmsg(handle_) : "no memory";
-        sqlite3_close(handle_);
-        throw labeling::InputError(name_ + ": " + reason);
-    }
     try {
-        sqlite3_busy_timeout(handle_, 10000);
-        Statement(handle_, name_, "PRAGMA journal_mode = WAL").run();
-        Statement(handle_, name_, "PRAGMA synchronous = NORMAL").run();
-        char* message = nullptr;
-        if (sqlite3_exec(handle_, kSchema, nullptr, nullptr, &message) != SQLITE_OK) {
-            const std::string reason = message != nullptr ? message : "unknown";
-            sqlite3_free(message);
-            throw labeling::InputError(name_ + ": " + reason);
-        }
+        access == Access::Write ? open_to_write() : open_to_read();
     } catch (...) {
         sqlite3_close(handle_);
         throw;
     }
+}
+
+void Database::open_to_write() {
+    if (sqlite3_open(name_.c_str(), &handle_) != SQLITE_OK) fail_to_open(handle_, name_);
+    sqlite3_busy_timeout(handle_, kBusyMilliseconds);
+    Statement(handle_, name_, "PRAGMA journal_mode = WAL").run();
+    Statement(handle_, name_, "PRAGMA synchronous = NORMAL").run();
+    if (sqlite3_exec(handle_, kSchema, nullptr, nullptr, nullptr) != SQLITE_OK) {
+        fail_to_open(handle_, name_);
+    }
+}
+
+/// A reader of a write-ahead log wants to write beside it, too. Where that cannot be, and there is
+/// no log, the file is whole and nobody's: it is read as it is.
+void Database::open_to_read() {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if (!fs::exists(name_, error)) return;
+    std::vector<std::string> ways{"?mode=ro"};
+    const auto log = fs::file_size(name_ + "-wal", error);
+    if (error || log == 0) ways.emplace_back("?immutable=1");
+    for (const std::string& way : ways) {
+        sqlite3_close(handle_);
+        handle_ = nullptr;
+        const std::string address = "file:" + percent_encoded(name_) + way;
+        constexpr int kFlags = SQLITE_OPEN_READONLY | SQLITE_OPEN_URI;
+        if (sqlite3_open_v2(address.c_str(), &handle_, kFlags, nullptr) != SQLITE_OK) continue;
+        sqlite3_busy_timeout(handle_, kBusyMilliseconds);
+        const int code =
+            sqlite3_exec(handle_, "SELECT 1 FROM sqlite_schema", nullptr, nullptr, nullptr);
+        if (code != SQLITE_OK) continue;
+        Statement tables(handle_, name_, "SELECT 1 FROM sqlite_schema WHERE name = 'runs'");
+        if (tables.step()) return;
+        break;  // its maker was killed before the tables were there
+    }
+    if (sqlite3_errcode(handle_) != SQLITE_OK && sqlite3_errcode(handle_) != SQLITE_DONE) {
+        fail_to_open(handle_, name_);
+    }
+    sqlite3_close(handle_);
+    handle_ = nullptr;
 }
 
 Database::~Database() { sqlite3_close(handle_); }
@@ -254,12 +306,14 @@ bool Database::store(const Record& r) {
 
 std::set<std::string> Database::finished_keys() const {
     std::set<std::string> keys;
+    if (handle_ == nullptr) return keys;
     Statement all(handle_, name_, "SELECT key FROM runs");
     while (all.step()) keys.insert(all.text(0));
     return keys;
 }
 
 std::vector<Record> Database::records() const {
+    if (handle_ == nullptr) return {};
     auto points = traces(handle_, name_);
     std::vector<Record> result;
     Statement all(handle_, name_,
@@ -293,7 +347,7 @@ CampaignRuns load_campaign(const std::filesystem::path& folder) {
     CampaignRuns campaign;
     campaign.plan = read_plan(folder);
     std::map<std::string, Record> by_key;
-    for (Record& r : Database(folder).records()) {
+    for (Record& r : Database(folder, Database::Access::Read).records()) {
         const std::string key = r.key;
         by_key.emplace(key, std::move(r));
     }

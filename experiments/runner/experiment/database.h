@@ -20,8 +20,11 @@ namespace experiment {
 /// was complete before stays.
 class Database {
 public:
-    /// Opens or makes it.
-    explicit Database(const std::filesystem::path& folder);
+    enum class Access {
+        Write,  ///< it is made where it is not there
+        Read    ///< it may lie where nobody can write; with no file, there are no records
+    };
+    explicit Database(const std::filesystem::path& folder, Access access = Access::Write);
     ~Database();
     Database(const Database&) = delete;
     Database& operator=(const Database&) = delete;
@@ -35,7 +38,10 @@ public:
     std::vector<Record> records() const;
 
 private:
-    sqlite3* handle_ = nullptr;
+    void open_to_write();
+    void open_to_read();
+
+    sqlite3* handle_ = nullptr;  ///< none: nothing to read
     std::string name_;
 };
 
