@@ -47,6 +47,14 @@ Solution original_solution(const RenamedProblem& renamed, const Solution& soluti
     return original;
 }
 
+Solution renamed_solution(const RenamedProblem& renamed, const Solution& solution) {
+    Solution told{std::vector<std::uint8_t>(renamed.renamed.size()), solution.value};
+    for (std::size_t i = 0; i < renamed.renamed.size(); ++i) {
+        told.labels[renamed.renamed[i]] = solution.labels[i];
+    }
+    return told;
+}
+
 std::vector<std::int8_t> renamed_start(const RenamedProblem& renamed,
                                        const std::vector<std::int8_t>& start) {
     std::vector<std::int8_t> told(start.size());

@@ -12,7 +12,7 @@ public:
 
     std::vector<std::string> run() {
         for (; at_ < command_.size(); ++at_) step(command_[at_]);
-        if (is_quoted_) fail("an open quote");
+        if (quote_ != 0) fail("an open quote");
         if (is_bracketed_) fail("an open bracket");
         end_word();
         return std::move(words_);
@@ -24,12 +24,12 @@ private:
     }
 
     void step(char c) {
-        if (c == '"') {
-            is_quoted_ = !is_quoted_;
+        if (c == quote_ || (quote_ == 0 && (c == '"' || c == '\''))) {
+            quote_ = quote_ == 0 ? c : char{0};
             has_word_ = true;
         } else if (c == '{') {
             place();
-        } else if (is_quoted_) {
+        } else if (quote_ != 0) {
             word_ += c;
         } else if (c == ' ' || c == '\t') {
             end_word();
@@ -76,7 +76,8 @@ private:
     std::vector<std::string> words_;
     std::string word_;
     std::size_t at_ = 0, first_of_bracket_ = 0;
-    bool is_quoted_ = false, is_bracketed_ = false, has_word_ = false, lacks_value_ = false;
+    char quote_ = 0;  ///< the one that is open
+    bool is_bracketed_ = false, has_word_ = false, lacks_value_ = false;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ struct ExternalProgram {
     std::string name;
     std::string description;
     std::string advice;  ///< how to get it, for the message when it is missing
-    /// Words separated by blanks, "..." around one that holds blanks. Placeholders: {problem}
+    /// Words separated by blanks, "..." or '...' around one that holds blanks. Placeholders: {problem}
     /// {solution} {start} (files), {time} (seconds, a decimal), {seconds} (whole, at least 1),
     /// {threads} {seed} {gap} {python} {worker}. What stands in [ ] is left out when one of its
     /// placeholders has no value (no time limit, no start, no gap).

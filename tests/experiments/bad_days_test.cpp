@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "campaign_support.h"
+#include "experiment/best_solution.h"
 #include "experiment/execute.h"
 #include "experiment/process_tree.h"
 #include "labeling/formats.h"
@@ -162,6 +163,42 @@ TEST_F(BadDays, ARenamedProblemIsAnsweredInItsOwnNames) {
     const auto records = Database(folder_.path() / "out").records();
     ASSERT_EQ(records.size(), 4u);
     for (const Record& r : records) EXPECT_EQ(r.value, 17) << r.message;
+}
+
+TEST_F(BadDays, BestLabelsOfARenamedProblemAreKeptInTheOriginalsNames) {
+    labeling::write_text_file(folder_.path() / "p.lab", kProblem);
+    // Answers with the start that it was given.
+    labeling::write_text_file(folder_.path() / "solver.sh", "cp $1 $2\n");
+    labeling::write_text_file(folder_.path() / "c.toml",
+                              "name = \"renamed\"\n[limits]\ntime = 60\n[[problems]]\n"
+                              "files = \"p.lab\"\n[[solvers]]\nname = \"x\"\nrenamings = [3]\n"
+                              "start = \"local-search\"\nprogram = \"sh " +
+                                  (folder_.path() / "solver.sh").string() +
+                                  " {start} {solution}\"\n");
+    run_experiment(folder_.path(), {"run", "c.toml", "-o", "out"});
+    const auto campaign = load_campaign(folder_.path() / "out");
+    ASSERT_TRUE(campaign.records.at(0));
+    EXPECT_EQ(campaign.records[0]->value, 17) << campaign.records[0]->message;
+    const auto problem = labeling::read_problem(folder_.path() / "p.lab");
+    const auto kept = labeling::read_solution(
+        best_solution_file(folder_.path() / "out", campaign.plan.problems[0].hash), problem);
+    EXPECT_EQ(labeling::check_solution(problem, kept).value, 17);
+    EXPECT_TRUE(labeling::check_solution(problem, kept).is_feasible);
+}
+
+TEST_F(BadDays, NumbersThatDoNotFitAreNone) {
+    const Record record = record_of(
+        "printf 'v 17\n1\n3\n' > $2\n"
+        "echo '{\"status\": \"feasible\", \"bound\": 10000000000000000000, \"seconds\": -3,"
+        "\"trace\": [[1e300, 5, 10000000000000000000, 18], [-1, 6, 17, null]]}' > $3\n");
+    EXPECT_EQ(record.outcome, Outcome::Feasible) << record.message;
+    EXPECT_FALSE(record.bound);
+    EXPECT_EQ(record.solver_seconds, 0);
+    ASSERT_EQ(record.trace.size(), 2u);
+    EXPECT_FALSE(record.trace[0].value);
+    EXPECT_EQ(record.trace[0].bound, 18);
+    EXPECT_EQ(record.trace[0].seconds, record.measures.wall_seconds);
+    EXPECT_EQ(record.trace[1].seconds, 0);
 }
 
 /// execute() wants a process of its own.

@@ -160,6 +160,11 @@ TEST_F(Campaign, BadInputIsRefusedBeforeAnythingRuns) {
     refused(head + "[[problems]]\nfiles = \"*.nothing\"\n" + greedy, "nothing matches *.nothing");
     refused(head + "[[problems]]\nfiles = \"missing.lab\"\n" + greedy, "missing.lab");
     refused(head + "[[problems]]\nfamily = \"chain\"\n[[solvers]]\nsolver = \"magic\"\n", "magic");
+    refused(head + "[[problems]]\nfamily = \"chain\"\n" + greedy + "options = { rulez = 1 }\n",
+            "solver 'greedy': solver greedy has no option 'rulez'");
+    refused(head + "[[problems]]\nfamily = \"chain\"\n[[solvers]]\nsolver = \"cbc\"\n" +
+                "options = { rows = \"all\" }\n",
+            "'all' is not paper or strengthened");
     refused(head + "[[problems]]\nfamily = \"chain\"\nlabels = -4\n" + greedy, "bad.toml:2");
     refused(head + "[[problems]]\nmeshes = \"cgal:none-of-that-name\"\nscales = \"2%\"\n" + greedy,
             "fetch_meshes.sh none-of-that-name");

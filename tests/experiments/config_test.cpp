@@ -4,8 +4,11 @@
 
 #include <filesystem>
 
+#include "experiment/pattern.h"
 #include "experiment/plan.h"
 #include "labeling/errors.h"
+#include "labeling/text_file.h"
+#include "labeling_mip/external_process.h"
 
 namespace experiment {
 namespace {
@@ -79,6 +82,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadConfig{"neither solver nor program", kSmall + "[[solvers]]\nname = \"x\"\n",
                   "either 'solver' or 'program'"},
         BadConfig{"both", kSmall + "program = \"p\"\n", "either 'solver' or 'program'"},
+        BadConfig{"limits are listed", kSmall + "[limits.sub]\n", "time, work"},
+        BadConfig{"program with a misspelt placeholder",
+                  kSmall + "[[solvers]]\nname = \"x\"\nprogram = \"p {problm}\"\n",
+                  ":12: command 'p {problm}': unknown placeholder {problm}"},
+        BadConfig{"program with an open quote",
+                  kSmall + "[[solvers]]\nname = \"x\"\nprogram = \"'p {problem}\"\n",
+                  ":12: command ''p {problem}': an open quote"},
+        BadConfig{"program of blanks", kSmall + "[[solvers]]\nname = \"x\"\nprogram = \"  \"\n",
+                  ":12: no program"},
         BadConfig{"unknown family", kSmall + "[[problems]]\nfamily = \"circles\"\n",
                   "unknown family 'circles'"},
         BadConfig{"two sources", kSmall + "[[problems]]\nfamily = \"chain\"\nfiles = \"a\"\n",
@@ -149,6 +161,50 @@ TEST(Plan, KeysDependOnWhatMattersAndOnNothingElse) {
     EXPECT_NE(plan.jobs[0].key, plan_of("time = 3\n").jobs[0].key);
     EXPECT_NE(plan.jobs[0].key, plan_of("options = { rule = \"gain\" }\n").jobs[0].key);
     EXPECT_NE(plan.jobs[0].key, plan_of("seeds = [2]\n").jobs[0].key);
+}
+
+TEST(Config, RelativeProgramsAreSeenFromItsFolder) {
+    const auto program = [](const std::string& command) {
+        return parse_config(kSmall + "[[solvers]]\nname = \"x\"\nprogram = '''" + command + "'''\n",
+                            "/some where/some.toml")
+            .solvers[1]
+            .program;
+    };
+    EXPECT_EQ(program("./p {problem}"), "\"/some where/p\" {problem}");
+    EXPECT_EQ(program("\"../my p\" {problem}"), "\"/my p\" {problem}");
+    EXPECT_EQ(program("'my p/q'"), "\"/some where/my p/q\"");
+    EXPECT_EQ(program("p ./x {problem}"), "p ./x {problem}");
+    EXPECT_EQ(program("/p/q {problem}"), "/p/q {problem}");
+    EXPECT_EQ(program("{programs}/scalefcn {problem}"), "{programs}/scalefcn {problem}");
+}
+
+TEST(Config, PatternsDoNotMeanTheFolder) {
+    const labeling::ScratchFolder folder;
+    const auto home = folder.path() / "[a] *";
+    std::filesystem::create_directories(home);
+    labeling::write_text_file(home / "p 1.lab", "");
+    EXPECT_EQ(matching_files("p*.lab", home).size(), 1u);
+    EXPECT_EQ(matching_files((folder.path() / "*" / "p*").string(), home).size(), 1u);
+}
+
+TEST(Plan, WhatAStudyWouldDropIsRefused) {
+    auto problems = two_problems();
+    problems[1].is_study = true;
+    const auto plan_of = [&](const std::string& solver) {
+        return make_plan(parse_config("name = \"x\"\n[limits]\ntime = 5\n[[problems]]\nfamily = "
+                                      "\"chain\"\n[[solvers]]\n" +
+                                          solver,
+                                      "some.toml"),
+                         problems);
+    };
+    EXPECT_EQ(plan_of("solver = \"auto\"\ngap = 0.1\nseeds = [1, 2]\n").jobs.size(), 4u);
+    for (const char* solver :
+         {"solver = \"greedy\"\noptions = { rule = \"weight\" }\n",
+          "solver = \"cbc\"\nstart = \"local-search\"\n", "solver = \"auto\"\nthreads = 2\n",
+          "solver = \"auto\"\nrenamings = [0, 1]\n", "name = \"p\"\nprogram = \"p\"\n"}) {
+        EXPECT_THROW(plan_of(solver), labeling::InputError) << solver;
+        EXPECT_EQ(plan_of(std::string(solver) + "problems = [\"a\"]\n").jobs[0].problem, 0u);
+    }
 }
 
 TEST(Plan, IsReadBackAsItWasWritten) {

@@ -389,7 +389,9 @@ TEST(CommandTemplates, ArePlacedWordByWord) {
               (Words{"run", "/a b/p.mps", "-s=7"}));
     EXPECT_EQ(labeling::command_words("run [-t {time} -x] [-s {seed}] \"a  b\" \"\"", values),
               (Words{"run", "-s", "7", "a  b", ""}));
-    for (const char* wrong : {"{time}", "{nothing}", "\"a", "[a", "a]", "{seed", "[[a]]"}) {
+    EXPECT_EQ(labeling::command_words("'a \"b' c\"'d {seed}'\"", values),
+              (Words{"a \"b", "c'd 7'"}));
+    for (const char* wrong : {"{time}", "{nothing}", "\"a", "'a\"", "[a", "a]", "{seed", "[[a]]"}) {
         EXPECT_THROW(labeling::command_words(wrong, values), labeling::InputError) << wrong;
     }
 }

@@ -26,6 +26,7 @@
 #include "experiment/provenance.h"
 #include "experiment/run_command.h"
 #include "labeling/errors.h"
+#include "labeling/problem.h"
 #include "labeling/text_file.h"
 #include "labeling_mip/external_process.h"
 #include "labeling_mip/mip_solvers.h"
@@ -60,12 +61,22 @@ std::vector<int> allowed_processors() {
     return allowed;
 }
 
+/// Solvers and their options are tried on a problem of two labels, so that no misspelt one is found
+/// after a night of runs.
 void check_solvers(const CampaignConfig& config) {
     const auto registry = labeling::all_solvers();
+    labeling::ProblemBuilder builder;
+    builder.add_conflict(builder.add_label(1), builder.add_label(2));
+    const labeling::LabelingProblem problem = builder.build();
     for (const SolverConfig& solver : config.solvers) {
         if (solver.solver.empty()) continue;
         try {
-            registry.find(solver.solver);
+            const auto found = registry.find(solver.solver);
+            if (solver.options.empty()) continue;
+            labeling::SolveOptions options;
+            options.time_limit = std::chrono::seconds(10);
+            options.extra = solver.options;
+            found->solve(problem, options);
         } catch (const InputError& error) {
             throw InputError(config.file.string() + ": solver '" + solver.name +
                              "': " + error.what());

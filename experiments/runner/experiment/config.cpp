@@ -4,6 +4,7 @@
 #include <set>
 
 #include "experiment/config_table.h"
+#include "experiment/run_command.h"
 #include "labeling/errors.h"
 #include "labeling/generators.h"
 #include "labeling/text_file.h"
@@ -46,6 +47,21 @@ struct Defaults {
     int threads = 1;
 };
 
+/// A program with a relative path is seen from the configuration's folder, like other files; one
+/// without a slash is looked up in PATH.
+std::string with_own_folder(const std::string& command, const std::filesystem::path& config) {
+    const bool is_quoted = command.starts_with('"') || command.starts_with('\'');
+    const std::size_t begin = is_quoted ? 1 : 0;
+    const std::size_t end =
+        std::min(is_quoted ? command.find(command[0], begin) : command.find_first_of(" \t[{"),
+                 command.size());
+    const std::string program = command.substr(begin, end - begin);
+    if (program.starts_with('/') || program.find('/') == std::string::npos) return command;
+    const auto whole = (std::filesystem::absolute(config).parent_path() / program);
+    const std::string rest = command.substr(std::min(command.size(), end + begin));
+    return '"' + whole.lexically_normal().string() + '"' + rest;
+}
+
 SolverConfig solver_from(ConfigTable table, const Defaults& defaults, const std::string& file) {
     SolverConfig solver;
     solver.solver = table.text("solver", "");
@@ -53,6 +69,7 @@ SolverConfig solver_from(ConfigTable table, const Defaults& defaults, const std:
     if (solver.solver.empty() == solver.program.empty()) {
         table.fail(nullptr, "a solver needs either 'solver' or 'program'");
     }
+    solver.program = with_own_folder(solver.program, file);
     solver.name = table.text("name", solver.solver);
     if (solver.name.empty()) table.fail(nullptr, "a program needs a name");
     require_name(table, table.node("name"), solver.name);
@@ -73,6 +90,13 @@ SolverConfig solver_from(ConfigTable table, const Defaults& defaults, const std:
     solver.limits = limits_from(table, defaults.limits);
     if (!solver.limits.seconds && !solver.program.empty()) {
         table.fail(nullptr, "a program needs a time limit: it counts no ticks");
+    }
+    if (!solver.program.empty()) {
+        try {
+            check_command(solver);
+        } catch (const labeling::InputError& error) {
+            table.fail(table.node("program"), error.what());
+        }
     }
     solver.seeds = table.seeds("seeds", defaults.seeds);
     solver.renamings = table.seeds("renamings", defaults.renamings);

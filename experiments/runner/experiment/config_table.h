@@ -17,7 +17,7 @@ public:
     ConfigTable(const toml::table& table, std::string file, std::string name)
         : table_(table), file_(std::move(file)), name_(std::move(name)) {}
 
-    bool has(const char* key) const { return table_.contains(key); }
+    bool has(const char* key) { return node(key) != nullptr; }
     std::string text(const char* key, const std::string& otherwise);
     std::string required_text(const char* key);
     bool flag(const char* key, bool otherwise);

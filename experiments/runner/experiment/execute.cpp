@@ -234,10 +234,16 @@ std::optional<Record> execute(const Plan& plan, const Job& job, const fs::path& 
         }
         // A program of the user's saw the renamed problem and answers in its names.
         const bool is_renamed = !solver.program.empty() && job.renaming != 0;
-        const auto asked = labeling::rename_labels(problem, is_renamed ? job.renaming : 0).problem;
-        judge(seen, asked, solver, record);
-        if (record.value && record.outcome != Outcome::Wrong && !is_renamed) {
-            keep_if_best(home, planned.hash, seen.solution_file, *record.value);
+        const auto asked = labeling::rename_labels(problem, is_renamed ? job.renaming : 0);
+        judge(seen, asked.problem, solver, record);
+        if (record.value && record.outcome != Outcome::Wrong) {
+            fs::path labels = seen.solution_file;
+            if (is_renamed) {
+                const auto solution = labeling::read_solution(labels, asked.problem);
+                labels = scratch.path() / "original.sol";
+                labeling::write_solution(labeling::original_solution(asked, solution), labels);
+            }
+            keep_if_best(home, planned.hash, labels, *record.value);
         }
     }
     add_provenance(planned, job, record);

@@ -4,6 +4,7 @@
 #include <glob.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace experiment {
 
@@ -16,8 +17,15 @@ std::vector<std::filesystem::path> matching_files(const std::string& pattern,
     const std::filesystem::path absolute = folder / pattern;
     if (pattern.find_first_of("*?[") == std::string::npos) return {absolute};
     std::vector<std::filesystem::path> files;
+    // The configuration's folder is no pattern, whatever it is called.
+    std::string literal;
+    const bool is_absolute = std::filesystem::path(pattern).is_absolute();
+    for (const char c : is_absolute ? std::string() : folder.string() + "/") {
+        if (std::string_view("*?[\\").find(c) != std::string_view::npos) literal += '\\';
+        literal += c;
+    }
     glob_t found{};
-    if (::glob(absolute.c_str(), GLOB_TILDE, nullptr, &found) == 0) {
+    if (::glob((literal + pattern).c_str(), 0, nullptr, &found) == 0) {
         for (std::size_t k = 0; k < found.gl_pathc; ++k) files.emplace_back(found.gl_pathv[k]);
     }
     ::globfree(&found);

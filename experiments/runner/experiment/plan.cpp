@@ -111,12 +111,26 @@ std::string key_of(const PlannedProblem& problem, const SolverConfig& solver, co
                         std::to_string(job.seed) + "\n" + std::to_string(job.renaming));
 }
 
+/// A study hands on solver, seed, work and gap, and would drop anything else in silence.
+void require_fit_for_study(const SolverConfig& solver, const PlannedProblem& problem) {
+    const char* what = !solver.program.empty()                                    ? "a program"
+                       : !solver.options.empty()                                  ? "options"
+                       : !solver.start.empty()                                    ? "a start"
+                       : solver.threads != 1                                      ? "threads"
+                       : solver.renamings.size() != 1 || solver.renamings[0] != 0 ? "renamings"
+                                                                                  : nullptr;
+    if (what == nullptr) return;
+    throw labeling::InputError("solver '" + solver.name + "' has " + what + ", which the study " +
+                               problem.name + " cannot take: it knows solver, seeds, work and gap");
+}
+
 /// Every run on one problem, in a random order.
 std::vector<Job> jobs_on(const Plan& plan, std::size_t problem, std::mt19937_64& engine) {
     std::vector<Job> jobs;
     for (std::size_t s = 0; s < plan.solvers.size(); ++s) {
         const SolverConfig& solver = plan.solvers[s];
         if (!takes(solver, plan.problems[problem])) continue;
+        if (plan.problems[problem].is_study) require_fit_for_study(solver, plan.problems[problem]);
         for (const std::uint64_t seed : solver.seeds) {
             for (const std::uint64_t renaming : solver.renamings) {
                 jobs.push_back({"", problem, s, seed, renaming});

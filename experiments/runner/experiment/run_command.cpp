@@ -64,25 +64,43 @@ std::vector<std::string> solve_words(const PlannedProblem& problem, const Solver
     return words;
 }
 
-std::vector<std::string> program_words(const PlannedProblem& problem, const SolverConfig& solver,
-                                       const Job& job, const fs::path& home,
-                                       const fs::path& scratch, const RunCommand& c) {
-    const auto renamed =
-        labeling::rename_labels(labeling::read_problem(home / problem.file), job.renaming);
-    const fs::path file = scratch / "problem.lab";
-    labeling::write_problem(renamed.problem, file);
+/// Files of a program's run, in one folder.
+struct ProgramFiles {
+    fs::path problem, start, solution, result;
+};
+
+std::vector<std::string> template_words(const SolverConfig& solver, std::uint64_t seed,
+                                        const ProgramFiles& files) {
     const std::map<std::string, std::string> values{
-        {"problem", file.string()},
-        {"solution", c.solution_file.string()},
-        {"result", c.result_file.string()},
-        {"start", solver.start.empty() ? "" : start_file(home, problem).string()},
+        {"problem", files.problem.string()},
+        {"solution", files.solution.string()},
+        {"result", files.result.string()},
+        {"start", solver.start.empty() ? "" : files.start.string()},
         {"time", solver.limits.seconds ? number(*solver.limits.seconds) : ""},
-        {"seed", std::to_string(job.seed)},
+        {"seed", std::to_string(seed)},
         {"threads", std::to_string(solver.threads)},
         {"memory", std::to_string(solver.limits.memory_mib)},
         {"sources", source_folder().string()},
         {"programs", own_program("labeling-solve").parent_path().string()}};
-    return labeling::command_words(solver.program, values);
+    auto words = labeling::command_words(solver.program, values);
+    if (words.empty() || words[0].empty()) throw labeling::InputError("no program in the command");
+    return words;
+}
+
+/// Problem and start are told in the names of this renaming.
+std::vector<std::string> program_words(const PlannedProblem& problem, const SolverConfig& solver,
+                                       const Job& job, const fs::path& home,
+                                       const fs::path& scratch, const RunCommand& c) {
+    const auto original = labeling::read_problem(home / problem.file);
+    const auto renamed = labeling::rename_labels(original, job.renaming);
+    const ProgramFiles files{scratch / "problem.lab", scratch / "start.sol", c.solution_file,
+                             c.result_file};
+    labeling::write_problem(renamed.problem, files.problem);
+    if (!solver.start.empty()) {
+        const auto start = labeling::read_solution(start_file(home, problem), original);
+        labeling::write_solution(labeling::renamed_solution(renamed, start), files.start);
+    }
+    return template_words(solver, job.seed, files);
 }
 
 std::vector<std::string> study_words(const PlannedProblem& problem, const SolverConfig& solver,
@@ -103,6 +121,10 @@ std::vector<std::string> study_words(const PlannedProblem& problem, const Solver
 }
 
 }  // namespace
+
+void check_command(const SolverConfig& solver) {
+    template_words(solver, 1, {"problem", "start", "solution", "result"});
+}
 
 fs::path start_file(const fs::path& folder, const PlannedProblem& problem) {
     return folder / "starts" / (problem.hash + ".sol");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <limits>
 
 #include "labeling/errors.h"
 #include "labeling/formats.h"
@@ -42,10 +43,19 @@ std::string last_line(const fs::path& file) {
     return one_line(last);
 }
 
+/// Nothing for what does not fit, too: it must not come back with another sign.
+std::optional<std::int64_t> integer_of(const json& j) {
+    if (!j.is_number_integer()) return std::nullopt;
+    const bool is_too_large =
+        j.is_number_unsigned() &&
+        j.get<std::uint64_t>() > std::uint64_t{std::numeric_limits<std::int64_t>::max()};
+    if (is_too_large) return std::nullopt;
+    return j.get<std::int64_t>();
+}
+
 std::optional<std::int64_t> integer_in(const json& j, const char* key) {
     const auto it = j.find(key);
-    if (it == j.end() || !it->is_number_integer()) return std::nullopt;
-    return it->get<std::int64_t>();
+    return it == j.end() ? std::nullopt : integer_of(*it);
 }
 
 std::string text_in(const json& j, const char* key) {
@@ -65,7 +75,11 @@ void take_result(const json& j, Record& record) {
     record.message = text_in(j, "message");
     record.bound = integer_in(j, "bound");
     record.work = integer_in(j, "work").value_or(0);
-    record.solver_seconds = real_in(j, "seconds");
+    // Its own clock may say what it likes, but no more than the time it had.
+    const auto within = [&](double seconds) {
+        return std::clamp(seconds, 0.0, record.measures.wall_seconds);
+    };
+    record.solver_seconds = within(real_in(j, "seconds"));
     if (const auto it = j.find("statistics"); it != j.end() && it->is_object()) {
         for (const auto& [key, value] : it->items()) {
             if (value.is_number()) record.statistics[one_line(key)] = value.get<double>();
@@ -73,13 +87,11 @@ void take_result(const json& j, Record& record) {
     }
     if (const auto it = j.find("trace"); it != j.end() && it->is_array()) {
         for (const json& p : *it) {
-            if (!p.is_array() || p.size() != 4 || !p[0].is_number() || !p[1].is_number_integer()) {
-                continue;
-            }
-            TracePoint point{p[0].get<double>(), p[1].get<std::int64_t>(), {}, {}};
-            if (p[2].is_number_integer()) point.value = p[2].get<std::int64_t>();
-            if (p[3].is_number_integer()) point.bound = p[3].get<std::int64_t>();
-            record.trace.push_back(point);
+            if (!p.is_array() || p.size() != 4 || !p[0].is_number()) continue;
+            const auto work = integer_of(p[1]);
+            if (!work) continue;
+            record.trace.push_back(
+                {within(p[0].get<double>()), *work, integer_of(p[2]), integer_of(p[3])});
         }
     }
 }
@@ -122,7 +134,10 @@ bool take_labels(const Observed& seen, const labeling::LabelingProblem& problem,
         return check.is_feasible;
     } catch (const labeling::InputError& unreadable) {
         is_wrong = true;
-        accuse(record, std::string("unreadable labels: ") + unreadable.what());
+        std::string what = unreadable.what();
+        const std::string folder = seen.solution_file.parent_path().string() + "/";
+        if (what.starts_with(folder)) what.erase(0, folder.size());
+        accuse(record, one_line("unreadable labels: " + what));
         return false;
     }
 }
