@@ -97,6 +97,16 @@ void WorkingNetwork::refine(int index, double spacing) {
     arc.origins = std::move(fine.origins);
 }
 
+int WorkingNetwork::add_node(const Vec3& position) {
+    nodes.push_back({position});
+    return static_cast<int>(nodes.size()) - 1;
+}
+
+void WorkingNetwork::remove_arc(int index) {
+    arcs[index] = WorkingArc{};
+    arcs[index].is_alive = false;
+}
+
 void WorkingNetwork::rotate_closed(int index, int start) {
     if (start == 0) return;
     WorkingArc& arc = arcs[index];

@@ -49,6 +49,8 @@ struct WorkingNetwork {
     template <class Predicate>
     int merge_regular_nodes(Predicate must_resample);
 
+    int add_node(const Vec3& position);
+    void remove_arc(int arc);
     int join(int node, int first_arc, int first_end, int second_arc, int second_end,
              bool must_resample);
     void reverse(int arc);
