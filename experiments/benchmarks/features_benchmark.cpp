@@ -7,6 +7,7 @@
 #include <map>
 
 #include "features/features.h"
+#include "features/wire.h"
 #include "geometry/models.h"
 
 namespace {
@@ -57,6 +58,22 @@ void detect_vsa(benchmark::State& state) {
     finish(state, mesh, arc_count);
 }
 
+/// Range 1: the number of wires, each across most of the mesh. One wire has to pay for the metric
+/// of the whole mesh, ten share it.
+void detect_wires(benchmark::State& state) {
+    const fcn::LoadedMesh& mesh = model("gear", state.range(0));
+    const auto count = static_cast<std::int64_t>(mesh.mesh.n_vertices());
+    std::vector<fcn::WireRequest> wires(static_cast<std::size_t>(state.range(1)));
+    for (std::size_t w = 0; w < wires.size(); ++w) {
+        const std::int64_t first = static_cast<std::int64_t>(w) * count / 11;
+        wires[w].vertices = {static_cast<int>(first),
+                             static_cast<int>((first + count / 2) % count)};
+    }
+    std::size_t arc_count = 0;
+    for (auto _ : state) arc_count = fcn::detect_wires(mesh, wires).arcs.size();
+    finish(state, mesh, arc_count);
+}
+
 }  // namespace
 
 BENCHMARK(detect_sharp)
@@ -78,6 +95,10 @@ BENCHMARK(detect_vsa)
     ->RangeMultiplier(4)
     ->Range(4096, 1 << 20)
     ->Complexity()
+    ->Unit(benchmark::kMillisecond);
+
+BENCHMARK(detect_wires)
+    ->ArgsProduct({{100000, 400000, 1000000}, {1, 10}})
     ->Unit(benchmark::kMillisecond);
 
 BENCHMARK_MAIN();

@@ -118,7 +118,7 @@ private:
         for (const FaceNode& node : nodes_)
             if (node.node == u) sides = node.sides;
         for (const FaceNode& node : nodes_) {
-            if (node.node == u) continue;
+            if (labels.cost[node.node] <= cost) continue;  // settled
             const Vec3 d = positions_[node.node] - positions_[u];
             const int shared = node.sides & sides;
             const int side = shared & 1 ? 0 : shared & 2 ? 1 : 2;

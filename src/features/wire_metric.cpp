@@ -98,6 +98,7 @@ std::vector<Operator> blurred_operators(const MeshArrays& arrays, double radius,
 
 WireMetric::WireMetric(const MeshArrays& arrays, const WireMetricOptions& options)
     : directions_(arrays.face_count(), Vec3::Zero()),
+      pulls_(arrays.face_count(), Vec3::Zero()),
       gains_(arrays.face_count(), 1),
       edge_costs_(arrays.edge_count(), 1) {
     const double radius = kRadiusShare * options.length;
@@ -126,6 +127,7 @@ WireMetric::WireMetric(const MeshArrays& arrays, const WireMetricOptions& option
             0.5 * std::atan2(2 * uv, uu - vv) + (mean >= 0 ? 0 : std::numbers::pi / 2);
         directions_[f] = std::cos(angle) * u + std::sin(angle) * v;
         if (gains_[f] < 1 + kSmallGain) directions_[f].setZero();
+        pulls_[f] = std::sqrt(1 - 1 / (gains_[f] * gains_[f])) * directions_[f];
     });
     for (int e = 0; e < arrays.edge_count(); ++e) {
         const double angle = std::max(0.0, std::abs(arrays.dihedrals[e]) - kNoiseAngle);

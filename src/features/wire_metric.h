@@ -30,13 +30,14 @@ public:
 
 private:
     std::vector<Vec3> directions_;
+    std::vector<Vec3> pulls_;  ///< the same, as long as makes its square 1 - 1 / gain^2
     std::vector<double> gains_;
     std::vector<double> edge_costs_;
 };
 
 inline double WireMetric::across(int face, const Vec3& d) const {
-    const double gain = gains_[face], part = d.dot(directions_[face]);
-    const double rest = d.squaredNorm() - part * part * (1 - 1 / (gain * gain));
+    const double part = d.dot(pulls_[face]);
+    const double rest = d.squaredNorm() - part * part;
     return rest > 0 ? std::sqrt(rest) : 0;
 }
 

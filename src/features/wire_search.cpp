@@ -1,12 +1,10 @@
 // Cheapest paths in three steps, each on less of the mesh and closer to the exact path. On large
-// meshes a search over vertices alone finds where the path runs; a vertex is reached by straight
-// steps from its last few predecessors too, not by mesh edges only, which would err by several
-// times where the metric is strongly anisotropic (the idea of short-term vectors in Campen,
-// Heistermann and Kobbelt 2013, "Practical anisotropic geodesy"). A band of faces around that path,
-// or the whole of a small mesh, is searched by Dijkstra's algorithm with Steiner points on edges, a
-// narrower band with more of them. At last the points slide along their edges: a dynamic program
-// over a few places on each, in windows that shrink, since moving points one by one converges too
-// slowly on long paths. Ties go to the lower number, so nothing depends on the heap.
+// meshes a search over vertices alone finds where the path runs (wire_vertices.cpp). A band of
+// faces around that path, or the whole of a small mesh, is searched by Dijkstra's algorithm with
+// Steiner points on edges, a narrower band with more of them. At last the points slide along their
+// edges: a dynamic program over a few places on each, in windows that shrink, since moving points
+// one by one converges too slowly on long paths. Ties go to the lower number, so nothing depends on
+// the heap.
 
 #include "features/wire_search.h"
 
@@ -20,8 +18,6 @@ namespace fcn {
 namespace {
 
 constexpr double kRounding = 1e-9;
-constexpr int kPredecessors = 4;       ///< of the search over vertices
-constexpr double kStraightness = 0.7;  ///< of the steps that one straight step replaces
 constexpr int kWideRings = 6;
 constexpr int kNarrowRings = 2;
 constexpr int kWidePoints = 3;  ///< on each edge
@@ -38,7 +34,6 @@ WireSearch::WireSearch(const MeshArrays& arrays, const WireMetric& metric,
       metric_(metric),
       options_(options),
       faces_(faces_of_vertices(arrays)),
-      edges_(edges_of_vertices(arrays, std::vector<bool>(arrays.edge_count(), true))),
       face_mark_(arrays.face_count(), -1),
       vertex_mark_(arrays.vertex_count(), -1),
       edge_mark_(arrays.edge_count(), -1) {}
@@ -123,65 +118,22 @@ double WireSearch::cost_between(const WirePoint& a, const WirePoint& b) const {
     return face < 0 ? kUnreached : step(face, a, b);
 }
 
-/// Vertices of a path between the ends, without them; empty if there is none.
+/// Vertices of a path between the ends; empty if there is none.
 std::vector<int> WireSearch::vertex_path(const WirePoint& from, const WirePoint& to) {
-    PathLabels labels(arrays_.vertex_count());
-    const auto vertex_point = [&](int v) {
-        WirePoint point;
-        point.vertex = v;
-        point.position = arrays_.points[v];
-        return point;
-    };
-    for (int f : faces_at(from))
-        for (int v : arrays_.face_vertices[f]) labels.reach(v, step(f, from, vertex_point(v)), -1);
-    double best = kUnreached;
-    int last = -1;
-    const std::vector<int> goal = faces_at(to);
-    std::vector<char> is_goal(arrays_.vertex_count(), 0);
-    for (int f : goal)
-        for (int v : arrays_.face_vertices[f]) is_goal[v] = 1;
-    const auto mean_across = [&](int edge, const Vec3& d) {
-        const auto [f, g] = arrays_.edge_faces[edge];
-        if (f < 0 || g < 0) return metric_.across(std::max(f, g), d);
-        return (metric_.across(f, d) + metric_.across(g, d)) / 2;
-    };
-    std::vector<int> edge_before(arrays_.vertex_count(), -1), parent(arrays_.vertex_count(), -1);
-    while (!labels.queue.empty()) {
-        const auto [cost, v] = labels.queue.top();
-        labels.queue.pop();
-        if (cost > labels.cost[v]) continue;
-        if (cost >= best) break;
-        if (is_goal[v]) {
-            const double total = cost + cost_between(vertex_point(v), to);
-            if (total < best) last = v;
-            best = std::min(best, total);
-        }
-        for (const int* e = edges_.begin(v); e != edges_.end(v); ++e) {
-            const auto [a, b] = arrays_.edge_vertices[*e];
-            const int w = a == v ? b : a;
-            double length = arrays_.edge_length(*e), value = cost + length * metric_.along(*e);
-            std::array<int, kPredecessors + 1> chain{*e};
-            int count = 1;
-            for (int u = v; count <= kPredecessors && edge_before[u] >= 0; ++count) {
-                chain[count] = edge_before[u];
-                length += arrays_.edge_length(edge_before[u]);
-                u = parent[u];
-                const Vec3 d = arrays_.points[w] - arrays_.points[u];
-                if (d.norm() < kStraightness * length) break;
-                double sum = 0;
-                for (int k = 0; k <= count; ++k) sum += mean_across(chain[k], d);
-                value = std::min(value, labels.cost[u] + sum / (count + 1));
+    if (!vertex_search_) vertex_search_ = std::make_unique<VertexSearch>(arrays_, metric_);
+    const auto seeds = [&](const WirePoint& end) {
+        std::vector<WireSeed> result;
+        WirePoint corner;
+        for (int f : faces_at(end)) {
+            for (int v : arrays_.face_vertices[f]) {
+                corner.vertex = v;
+                corner.position = arrays_.points[v];
+                result.push_back({v, step(f, end, corner)});
             }
-            value = std::max(value, cost);  // a straight step never goes back in time
-            if (value >= labels.cost[w]) continue;
-            labels.reach(w, value, v);
-            parent[w] = v;
-            edge_before[w] = *e;
         }
-    }
-    std::vector<int> path;
-    for (int v = last; v >= 0; v = parent[v]) path.push_back(v);
-    return path;
+        return result;
+    };
+    return vertex_search_->path(seeds(from), seeds(to));
 }
 
 /// The faces and those within some rings of shared vertices around them, in ascending order.

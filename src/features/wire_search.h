@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "features/mesh_arrays.h"
 #include "features/wire_metric.h"
+#include "features/wire_vertices.h"
 
 namespace fcn {
 
@@ -55,7 +57,7 @@ private:
     const WireMetric& metric_;
     WireSearchOptions options_;
     IndexRows faces_;
-    IndexRows edges_;
+    std::unique_ptr<VertexSearch> vertex_search_;           ///< of large meshes
     std::vector<int> face_mark_, vertex_mark_, edge_mark_;  ///< number within the current band
 };
 
