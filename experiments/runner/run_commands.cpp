@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "commands.h"
 #include "experiment/campaign.h"
@@ -69,6 +70,7 @@ struct RunArguments {
     fs::path config, folder;
     int jobs = 1;
     bool is_unpinned = false, is_quiet = false;
+    std::vector<std::string> again;
 };
 
 void tell_line(bool is_quiet, const std::string& text) {
@@ -84,6 +86,7 @@ int go_on(const RunArguments& arguments) {
     CampaignOptions options;
     options.jobs = arguments.jobs;
     options.is_pinned = !arguments.is_unpinned;
+    for (const std::string& name : arguments.again) options.again.insert(outcome_from(name));
     options.stop = labeling::stop_at_signals();
     CampaignOutcome outcome;
     {
@@ -127,6 +130,12 @@ Command add_resume(CLI::App& program) {
     CLI::App* parser =
         program.add_subcommand("resume", "Make the runs that a campaign does not hold yet");
     parser->add_option("DIR", arguments->folder, "Folder of the campaign")->required();
+    parser
+        ->add_option("--again", arguments->again,
+                     "Also make again what ended so: missing, once it is installed; "
+                     "not-applicable, with a larger licence")
+        ->check(CLI::IsMember({"missing", "not-applicable"}))
+        ->delimiter(',');
     add_run_options(*parser, *arguments);
     parser->footer("Example:\n  scalefcn-experiment resume out/smoke");
     return {parser, [arguments] { return go_on(*arguments); }};

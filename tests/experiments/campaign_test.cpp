@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <random>
+#include <set>
 
 #include "campaign_support.h"
 #include "experiment/folder_lock.h"
@@ -123,6 +124,32 @@ TEST_F(Campaign, ADamagedRecordIsMadeAgain) {
     std::ofstream(out("damaged") / "records" / (plan.jobs[0].key + ".json")) << "{\"key\": 1";
     EXPECT_EQ(run({"resume", "damaged", "-q"}).outcome.exit_code, 0);
     EXPECT_EQ(answers(out("damaged")).size(), kRuns);
+}
+
+TEST_F(Campaign, WhatWasMissingIsMadeOnceItIsThere) {
+    labeling::write_text_file(out("p.lab"), "p labeling 1 0 0 0\nl 1 5\n");
+    labeling::write_text_file(out("m.toml"),
+                              "name = \"m\"\n[limits]\ntime = 60\n[[problems]]\nfiles = "
+                              "\"p.lab\"\n[[solvers]]\nsolver = \"greedy\"\n[[solvers]]\nname = "
+                              "\"later\"\nprogram = \"./later.sh {solution}\"\n");
+    const auto outcomes = [&] {
+        std::multiset<std::string> names;
+        for (const Record& r : Database(out("m")).records()) names.insert(to_string(r.outcome));
+        return names;
+    };
+    EXPECT_EQ(run({"run", "m.toml", "-o", "m", "-q"}).outcome.exit_code, 0);
+    EXPECT_EQ(outcomes(), (std::multiset<std::string>{"feasible", "missing"}));
+    labeling::write_text_file(out("later.sh"), "#!/bin/sh\nprintf 'v 5\\n1\\n' > $1\n");
+    fs::permissions(out("later.sh"), fs::perms::owner_all);
+    const auto greedy = answers(out("m"));
+    run({"resume", "m", "-q"});
+    EXPECT_EQ(answers(out("m")), greedy);
+    run({"resume", "m", "-q", "--again", "not-applicable"});
+    EXPECT_EQ(answers(out("m")), greedy);
+    EXPECT_EQ(run({"resume", "m", "-q", "--again", "missing"}).outcome.exit_code, 0);
+    EXPECT_EQ(outcomes(), (std::multiset<std::string>{"feasible", "feasible"}));
+    // What was made is no more made again than hidden.
+    EXPECT_EQ(run({"resume", "m", "-q", "--again", "crash"}).outcome.exit_code, 2);
 }
 
 TEST_F(Campaign, RecordsMadeElsewhereAreMerged) {

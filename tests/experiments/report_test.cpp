@@ -127,6 +127,43 @@ TEST(Report, WithoutMatplotlibItIsCompleteButForThePlots) {
     for (const fs::path& file : result.files) EXPECT_TRUE(fs::exists(file)) << file;
 }
 
+TEST(Report, SaysWhatAReaderCouldNotGuess) {
+    const PythonIs none(kNoPython);
+    test::CampaignBuilder builder;
+    const std::size_t first = builder.solver("first"), close = builder.solver("close"),
+                      heuristic = builder.solver("heuristic");
+    for (int k = 0; k < 3; ++k) {
+        const std::string name = std::string("mesh") + std::to_string(k);
+        const std::size_t p = builder.problem(name, name);
+        builder.optimal(p, first, 100, 0.5 + k);
+        Record& unproven = builder.feasible(p, close, 100, 101, 0.25 + k);
+        unproven.stop_reason = "finished";
+        unproven.message = "near enough";
+        builder.feasible(p, heuristic, 90, std::nullopt, 1);
+    }
+    const labeling::ScratchFolder scratch;
+    write_report(builder.runs, scratch.path() / "report");
+    const std::string text = read_text_file(scratch.path() / "report" / "report.md");
+    // An exact solver that ends by itself without a proof: why, and how many runs.
+    EXPECT_NE(text.find("close: 3 runs ended before any limit, without an exact proof, and count "
+                        "as unsolved. It says: near enough."),
+              std::string::npos);
+    EXPECT_EQ(text.find("first: "), std::string::npos);
+    // The start of a program is in its times.
+    EXPECT_NE(text.find("| first | 3 | **3** | **1.36"), std::string::npos);
+    EXPECT_NE(text.find("| 3 | 0.500 |"), std::string::npos);
+    EXPECT_NE(text.find("| 0 | 0.250 |"), std::string::npos);
+    EXPECT_NE(text.find("There are 3 groups here"), std::string::npos);
+    // Times of a heuristic are no ratios.
+    const auto rows = parsed_csv(read_text_file(scratch.path() / "report" / "pairs.csv"));
+    const auto ratio = static_cast<std::size_t>(
+        std::find(rows[0].begin(), rows[0].end(), "time_b_over_a") - rows[0].begin());
+    ASSERT_EQ(rows.size(), 4u);
+    EXPECT_NE(rows[1].at(ratio), "");
+    EXPECT_EQ(rows[2].at(ratio), "");
+    EXPECT_EQ(rows[3].at(ratio), "");
+}
+
 TEST(Report, APythonWithoutMatplotlibIsToldApartFromAFailure) {
     const labeling::ScratchFolder scratch;
     const auto script = [&](const std::string& body) {

@@ -102,6 +102,13 @@ void make_starts(const CampaignConfig& config, const std::vector<PlannedProblem>
     }
 }
 
+void write_solver_versions(const std::vector<SolverConfig>& solvers, const fs::path& folder) {
+    std::set<std::string> names;
+    for (const SolverConfig& solver : solvers) names.insert(solver.solver);
+    labeling::write_text_file(folder / "solver_versions.json",
+                              solver_versions(names).dump(1) + "\n");
+}
+
 /// The jobs that are left, shared by the threads that make them.
 class Runner {
 public:
@@ -119,6 +126,7 @@ public:
         fs::remove_all(folder_ / "scratch", ignored);
         fs::create_directories(folder_ / "records");
         database_.store_plan(plan_);
+        if (!options_.again.empty()) forget_some();
         find_what_is_left();
         tell("");
         std::vector<std::thread> threads;
@@ -132,6 +140,17 @@ public:
     }
 
 private:
+    /// What could not be made may have become possible. The file goes first: a run of which the
+    /// database alone knows is forgotten as a whole the next time.
+    void forget_some() {
+        for (const Record& record : database_.records()) {
+            if (!options_.again.contains(record.outcome)) continue;
+            fs::remove(record_file(folder_, record.key));
+            database_.erase(record.key);
+        }
+        write_solver_versions(plan_.solvers, folder_);
+    }
+
     void find_what_is_left() {
         auto finished = database_.finished_keys();
         for (const Job& job : plan_.jobs) {
@@ -268,10 +287,7 @@ void prepare_campaign(const fs::path& config_file, const fs::path& folder,
     }
     auto problems = make_problems(config, folder, tell);
     make_starts(config, problems, folder, tell);
-    std::set<std::string> names;
-    for (const SolverConfig& solver : config.solvers) names.insert(solver.solver);
-    labeling::write_text_file(folder / "solver_versions.json",
-                              solver_versions(names).dump(1) + "\n");
+    write_solver_versions(config.solvers, folder);
     write_plan(make_plan(config, std::move(problems)), folder);
 }
 

@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <stop_token>
 #include <string>
 
 #include "experiment/plan.h"
+#include "experiment/record.h"
 
 namespace experiment {
 
@@ -22,7 +24,10 @@ struct CampaignProgress {
 struct CampaignOptions {
     int jobs = 1;           ///< runs at the same time; more than one disturb each other's times
     bool is_pinned = true;  ///< each to a processor of its own
-    std::stop_token stop;   ///< runs under way are given up and made again at the next resume
+    /// Runs that ended so are made again: missing, not-applicable. Others stay as they are: a
+    /// failure that is repeated until it passes would be no failure.
+    std::set<Outcome> again;
+    std::stop_token stop;  ///< runs under way are given up and made again at the next resume
     std::function<void(const CampaignProgress&)> on_progress;
 };
 

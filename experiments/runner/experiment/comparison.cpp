@@ -89,6 +89,11 @@ private:
         const RunReading reading = reader.read(j);
         if (reading.standing != Standing::Taken) return;
         if (solver.limits.seconds && reading.seconds > reading.limit) ++summary.runs_over_limit;
+        if (!reading.has_value) return;
+        if (std::isnan(summary.shortest) || reading.seconds < summary.shortest) {
+            summary.shortest = reading.seconds;
+        }
+        summary.ended_unproven += !reading.is_proven && !reading.was_stopped;
     }
 
     Cell cell_of(const std::vector<std::size_t>& jobs, const RunReader& reader) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -50,6 +51,9 @@ struct SolverSummary {
     std::array<std::size_t, kTargets.size()> reached{};
     double instructions = 0;  ///< geometric mean; NaN where none were counted
     double spread = 0;        ///< geometric mean; NaN where there is none
+    double shortest = std::numeric_limits<double>::quiet_NaN();  ///< run that gave an answer,
+                                                                 ///< seconds; NaN without any
+    std::size_t ended_unproven = 0;  ///< runs that ended by themselves with an answer and no proof
 };
 
 /// Solver `a` against `b` on the problems that both took.

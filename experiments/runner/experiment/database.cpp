@@ -304,6 +304,13 @@ bool Database::store(const Record& r) {
     return is_new;
 }
 
+void Database::erase(const std::string& key) {
+    Transaction transaction(handle_, name_);
+    Statement(handle_, name_, "DELETE FROM trace WHERE run = ?").put(key).run();
+    Statement(handle_, name_, "DELETE FROM runs WHERE key = ?").put(key).run();
+    transaction.commit();
+}
+
 std::set<std::string> Database::finished_keys() const {
     std::set<std::string> keys;
     if (handle_ == nullptr) return keys;

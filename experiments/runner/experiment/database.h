@@ -34,6 +34,8 @@ public:
     /// A run with its trace, in one transaction. A run that is there already is left as it is;
     /// false then.
     bool store(const Record& record);
+    /// Forgets a run, in one transaction.
+    void erase(const std::string& key);
     std::set<std::string> finished_keys() const;
     std::vector<Record> records() const;
 

@@ -129,8 +129,8 @@ private:
         add("plots", "profile", "lines", "Performance profile",
             "Performance profile over the " + std::to_string(problems.size()) +
                 " problems that all of these solvers took: the share proven within x times the "
-                "time of the fastest one (times below the floor count as the floor). It ranks no "
-                "more than two solvers; see the pairwise ratios.",
+                "time of the fastest one (times below the floor count as the floor). A profile "
+                "of more than two solvers does not rank them; see the pairwise ratios.",
             {{"steps", true},
              {"series", series},
              {"x", axis("time over the fastest solver's time", "log")},
@@ -153,7 +153,9 @@ private:
         count["is_count"] = true;
         add("plots", "cactus", "lines", "Cactus plot",
             "Cactus plot: how many problems each exact solver proves when every problem may take "
-            "that long; further right and lower is better. Each over the problems it took.",
+            "that long (times below the floor count as the floor); further right and lower is "
+            "better. "
+            "Each over the problems it took.",
             {{"series", series},
              {"x", count},
              {"y", axis("limit for each problem, " + clock_, "log")}});
@@ -255,7 +257,8 @@ private:
             "Time against the number of labels: problems proven by exact solvers; for the others, "
             "runs that no limit ended. Lines are least squares of logarithms. Problems "
             "that were not finished are missing at the upper right, so exponents are too low where "
-            "there are many.",
+            "there are many; and a program's start, in all times, makes them lower still where "
+            "problems are small.",
             {{"series", series}, {"x", axis("labels", "log")}, {"y", axis(clock_, "log")}});
     }
 

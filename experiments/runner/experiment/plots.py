@@ -30,6 +30,8 @@ STYLE = {
     "figure.dpi": 100, "lines.linewidth": 1.6, "legend.frameon": False,
 }
 FLAT = {"bars", "boxes"}
+LEGEND_COLUMNS = 3
+MOST_TOGETHER = 4  # clouds of points that can be told apart in one drawing
 
 
 def look(index):
@@ -118,8 +120,11 @@ def set_axis(axes, which, axis):
         side = axes.xaxis if which == "x" else axes.yaxis
         side.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
         low, high = side.get_view_interval()
-        is_narrow = scale == "log" and high / max(low, 1e-300) < 30
-        side.set_minor_formatter(ticker.FuncFormatter(between_powers) if is_narrow
+        ratio = high / max(low, 1e-300) if scale == "log" else float("inf")
+        if ratio < 8:  # hardly a power of ten in it: round numbers at equal distances
+            side.set_major_locator(ticker.MaxNLocator(6, steps=[1, 2, 5, 10]))
+            side.set_minor_locator(ticker.NullLocator())
+        side.set_minor_formatter(ticker.FuncFormatter(between_powers) if ratio < 30
                                  else ticker.NullFormatter())
     if axis.get("is_count"):
         (axes.xaxis if which == "x" else axes.yaxis).set_major_locator(
@@ -131,20 +136,48 @@ def set_axis(axes, which, axis):
     set_label(axis["label"])
 
 
-def draw(figure, folder):
+def draw_alone(figure):
     is_flat = figure["kind"] in FLAT
     rows = len(figure.get("bars", [])) or len(figure["series"])
-    height = max(2.2, 1.1 + 0.34 * rows) if is_flat else 4.1
+    legend_rows = -(-rows // LEGEND_COLUMNS)
+    height = max(2.2, 1.1 + 0.34 * rows) if is_flat else 3.7 + 0.17 * legend_rows
     canvas, axes = pyplot.subplots(figsize=(6.0, height), layout="constrained")
     DRAW[figure["kind"]](axes, figure)
     set_axis(axes, "x", figure["x"])
     if not is_flat:
         set_axis(axes, "y", figure["y"])
         if len(figure["series"]) > 1 or "fit" in figure["series"][0]:
-            canvas.legend(loc="outside lower center", ncols=3)
+            canvas.legend(loc="outside lower center", ncols=LEGEND_COLUMNS)
     if figure.get("square"):
         axes.set_box_aspect(1)
     axes.set_title(figure["title"], loc="left", fontweight="bold")
+    return canvas
+
+
+def draw_panels(figure):
+    """A panel for each cloud of points, all with the same axes."""
+    rows = -(-len(figure["series"]) // LEGEND_COLUMNS)
+    canvas, grid = pyplot.subplots(rows, LEGEND_COLUMNS, figsize=(7.2, 0.7 + 1.55 * rows),
+                                   sharex=True, sharey=True, squeeze=False, layout="constrained")
+    panels = list(grid.flat)
+    for axes, series in zip(panels, figure["series"]):
+        draw_points(axes, {**figure, "series": [series]})
+        axes.set_title(series["name"], loc="left", fontsize=8)
+    for which in ("x", "y"):
+        set_axis(panels[0], which, {**figure[which], "label": ""})
+    for axes in panels[len(figure["series"]):]:
+        axes.set_visible(False)
+    for axes in panels[len(figure["series"]) - LEGEND_COLUMNS:len(figure["series"])]:
+        axes.tick_params(labelbottom=True)
+    canvas.supxlabel(figure["x"]["label"], fontsize=9)
+    canvas.supylabel(figure["y"]["label"], fontsize=9)
+    canvas.suptitle(figure["title"], x=0.02, ha="left", fontsize=10, fontweight="bold")
+    return canvas
+
+
+def draw(figure, folder):
+    is_crowded = figure["kind"] == "points" and len(figure["series"]) > MOST_TOGETHER
+    canvas = draw_panels(figure) if is_crowded else draw_alone(figure)
     canvas.savefig(folder / (figure["name"] + ".svg"), metadata={"Date": None})
     canvas.savefig(folder / (figure["name"] + ".pdf"),
                    metadata={"CreationDate": None, "ModDate": None})

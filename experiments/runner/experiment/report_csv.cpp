@@ -245,7 +245,9 @@ std::string pairs_csv(const CampaignRuns& campaign, const Comparison& comparison
             row.add(plan.solvers[a].name).add(plan.solvers[b].name).add(pair.common);
             row.add(pair.both_proven).add(pair.only_a).add(pair.only_b);
             row.add(pair.faster_a).add(pair.faster_b).add(pair.ties);
-            add_interval(pair.time_ratio);
+            // A time without a proof is the limit: of a heuristic it says nothing.
+            const bool are_exact = comparison.solvers[a].is_exact && comparison.solvers[b].is_exact;
+            add_interval(are_exact ? pair.time_ratio : Interval{std::nan("")});
             row.add(pair.better_a).add(pair.better_b).add(pair.equal);
             add_interval(pair.gap_difference);
             text += row.line();

@@ -21,8 +21,9 @@ a:hover { text-decoration: underline; }
 nav { margin: 14px 0 0; display: flex; flex-wrap: wrap; gap: 4px 16px; font-size: 14px; }
 pre { background: var(--band); border: 1px solid var(--line); border-radius: 6px;
   padding: 8px 12px; overflow-x: auto; font-size: 13px; }
-.sheet { overflow-x: auto; max-height: 620px; overflow-y: auto; margin: 6px 0 18px;
-  border: 1px solid var(--line); border-radius: 6px; }
+.sheet { overflow-x: auto; margin: 6px 0 18px; border: 1px solid var(--line);
+  border-radius: 6px; }
+details .sheet { max-height: 620px; overflow-y: auto; }
 table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabular-nums;
   width: 100%; }
 th { position: sticky; top: 0; background: var(--band); text-align: left; cursor: pointer;
@@ -46,7 +47,7 @@ figcaption { color: #59636e; font-size: 13px; margin-top: 6px; }
 .alarm { background: var(--alarm); color: var(--paper); padding: 14px 18px; border-radius: 6px;
   font-weight: 600; font-size: 16px; max-width: none; }
 .alarm-list li { color: var(--alarm); }
-@media print { .sheet { max-height: none; overflow: visible; } body { max-width: none; } }
+@media print { details .sheet { max-height: none; overflow: visible; } body { max-width: none; } }
 )css";
 
 /// Sorts a table by the column whose head is clicked: numbers by their value, cells without one

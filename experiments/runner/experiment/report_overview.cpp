@@ -107,11 +107,13 @@ void add_gurobi(const ReportInput& input, Document& document) {
                       " beyond what its licence allows: " + listed(found.problems) + "."});
     }
     if (section.blocks.empty()) return;
-    section.blocks.emplace_back(Paragraph{
-        "Whoever has a licence makes these runs, and no others again, with a new folder:"});
     section.blocks.emplace_back(
-        CommandLine{"GRB_LICENSE_FILE=/path/to/gurobi.lic scalefcn-experiment run " +
-                    plan.config_file + " -o DIR"});
+        Paragraph{"Whoever has a licence and the campaign's folder makes these runs alone with the "
+                  "first command; "
+                  "the second one makes the whole campaign, in a new folder:"});
+    const std::string licence = "GRB_LICENSE_FILE=/path/to/gurobi.lic scalefcn-experiment ";
+    section.blocks.emplace_back(CommandLine{licence + "resume DIR --again not-applicable"});
+    section.blocks.emplace_back(CommandLine{licence + "run " + plan.config_file + " -o DIR"});
     add_section(document, std::move(section));
 }
 
@@ -257,6 +259,16 @@ Table provenance_table(const CampaignRuns& campaign) {
     return table;
 }
 
+/// The percentile bootstrap of clusters covers too little when these are few.
+std::string few_groups(const Plan& plan) {
+    constexpr std::size_t kEnough = 10;
+    std::set<std::string> groups;
+    for (const PlannedProblem& problem : plan.problems) groups.insert(problem.group);
+    if (groups.size() < 2 || groups.size() >= kEnough) return "";
+    return " There are " + std::to_string(groups.size()) +
+           " groups here; with fewer than ten such intervals are too narrow.";
+}
+
 }  // namespace
 
 void add_section(Document& document, Section section) {
@@ -316,10 +328,12 @@ void add_gaps_in_the_record(const ReportInput& input, Document& document) {
         const NotTaken missing = not_taken(input.campaign, s, Outcome::Missing);
         if (!missing.problems.empty()) {
             const std::string how = install_command(plan.solvers[s]);
-            list.items.push_back(plan.solvers[s].name + " is not installed: " +
-                                 counted(missing.problems.size(), "problem", "problems") +
-                                 " without it." + (how.empty() ? "" : " To install it: " + how) +
-                                 quoted_messages(missing.messages));
+            list.items.push_back(
+                plan.solvers[s].name +
+                " is not installed: " + counted(missing.problems.size(), "problem", "problems") +
+                " without it." + (how.empty() ? "" : " To install it: " + how + ".") +
+                " Then: scalefcn-experiment resume DIR --again missing." +
+                quoted_messages(missing.messages));
         }
         const NotTaken refused = not_taken(input.campaign, s, Outcome::NotApplicable);
         if (!refused.problems.empty()) {
@@ -358,8 +372,10 @@ void add_method(const ReportInput& input, Document& document) {
             " s; in ratios times below " + decimal_text(r.floor_seconds, 3) +
             " s count as that much; times within a factor of " + decimal_text(kTieFactor, 1) +
             " are ties.",
-        "Intervals are 95% percentile bootstraps that draw whole groups (meshes, families), " +
-            std::to_string(r.resamplings) + " times; without a second group there is none.",
+        "Intervals are 95% percentile bootstraps that draw whole groups (all problems of a mesh; a "
+        "generated problem is a group of its own), " +
+            std::to_string(r.resamplings) + " times; without a second group there is none." +
+            few_groups(input.campaign.plan),
         "The gap to the best known value is (best - value) / max(1, |best|), and likewise to the "
         "best bound; without a solution it is 100%. Primal integrals run over " +
             seconds_text(input.comparison.horizon) + " s of the solvers' own clock.",

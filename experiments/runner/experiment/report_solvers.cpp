@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "experiment/report_numbers.h"
 #include "experiment/report_sections.h"
@@ -50,8 +51,8 @@ public:
 
     Table exact(const std::vector<std::size_t>& solvers, bool has_virtual_best) const {
         Table table;
-        table.columns = {"solver",    "problems",  "proven", "shifted geometric mean [s]",
-                         "PAR10 [s]", "fastest on"};
+        table.columns = {"solver",    "problems",   "proven",          "shifted geometric mean [s]",
+                         "PAR10 [s]", "fastest on", "shortest run [s]"};
         if (comparison_.has_instructions) {
             table.columns.push_back("instructions, geometric mean [10^9]");
         }
@@ -72,6 +73,7 @@ public:
         if (has_virtual_best && solvers.size() > 1) {
             table.rows.push_back(exact_row("virtual best", comparison_.virtual_best));
             table.rows.back()[5] = "";
+            table.rows.back()[6] = "";
             if (has_spread()) table.rows.back().back() = "";
         }
         return table;
@@ -149,7 +151,8 @@ private:
                                    number(sum.proven),
                                    {seconds_interval(sum.time), sum.time.estimate},
                                    {seconds_interval(sum.par10), sum.par10.estimate},
-                                   number(sum.fastest)};
+                                   number(sum.fastest),
+                                   {seconds_text(sum.shortest), sum.shortest}};
         if (comparison_.has_instructions) {
             row.emplace_back(instruction_text(sum.instructions), sum.instructions);
         }
@@ -225,6 +228,26 @@ double real_number(std::optional<std::int64_t> value, double units) {
     return value ? static_cast<double>(*value) / units : std::nan("");
 }
 
+/// An exact solver that ends by itself, and proves nothing to us: a reader must know why.
+std::string ended_without_proof(const ReportInput& input, std::size_t solver) {
+    const std::size_t count = input.comparison.solvers[solver].ended_unproven;
+    if (count == 0) return "";
+    std::set<std::string> messages;
+    for (std::size_t j = 0; j < input.campaign.plan.jobs.size(); ++j) {
+        const auto& record = input.campaign.records[j];
+        if (input.campaign.plan.jobs[j].solver != solver || !record) continue;
+        const bool is_stopped =
+            record->stop_reason == "time-limit" || record->stop_reason == "work-limit";
+        const bool counts = record->outcome == Outcome::Feasible && !is_stopped;
+        if (counts && !record->message.empty()) messages.insert(record->message);
+    }
+    std::string text = input.campaign.plan.solvers[solver].name + ": " + std::to_string(count) +
+                       (count == 1 ? " run" : " runs") +
+                       " ended before any limit, without an exact proof, and count as unsolved.";
+    if (!messages.empty()) text += " It says: " + *messages.begin() + ".";
+    return text;
+}
+
 }  // namespace
 
 void add_exact_solvers(const ReportInput& input, Document& document) {
@@ -238,13 +261,20 @@ void add_exact_solvers(const ReportInput& input, Document& document) {
         table.caption =
             "Solvers that claim bounds. Means are over the problems that each one took; "
             "where these differ, rows cannot be compared, see the pairs. The best "
-            "number of a column is bold where all took as many problems.";
+            "number of a column is bold where all took as many problems. Times hold a program's "
+            "start: the shortest run says how long that is, at most.";
         if (!std::isnan(input.comparison.solvers[solvers[0]].spread)) {
             table.caption +=
                 " The last column is what seeds and renamings alone change: the "
                 "geometric mean of slowest over fastest run of a problem.";
         }
         section.blocks.emplace_back(std::move(table));
+        BulletList list;
+        for (const std::size_t s : solvers) {
+            const std::string text = ended_without_proof(input, s);
+            if (!text.empty()) list.items.push_back(text);
+        }
+        if (!list.items.empty()) section.blocks.emplace_back(std::move(list));
     }
     add_section(document, std::move(section));
     add_section(document, {"Plots", "plots", input.plots.of_section("plots")});

@@ -23,8 +23,8 @@ struct RunCommand {
 RunCommand run_command(const Plan& plan, const Job& job, const std::filesystem::path& home,
                        const std::filesystem::path& scratch);
 
-/// Throws InputError when a program's command is no template: an unknown placeholder, an open quote,
-/// no word at all.
+/// Throws InputError when a program's command is no template: an unknown placeholder, an open
+/// quote, no word at all.
 void check_command(const SolverConfig& solver);
 
 /// The start of a problem for solvers that get one: FOLDER/starts/HASH.sol.
