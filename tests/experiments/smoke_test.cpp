@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "campaign_support.h"
 #include "labeling/formats.h"
@@ -114,6 +115,38 @@ TEST_F(Smoke, TheLibraryHoldsWhatItSays) {
     }
     EXPECT_GT(certificates, 0);
     EXPECT_NE(content(library / "scoreboard.md").find("| auto |"), std::string::npos);
+}
+
+TEST(Library, TwoContentsOfOneNameAreTwoProblems) {
+    const labeling::ScratchFolder folder;
+    for (const char* version : {"1", "2"}) {
+        labeling::write_text_file(folder.path() / "p.lab",
+                                  std::string("p labeling 1 0 0 0\nl 1 ") + version + "\n");
+        labeling::write_text_file(
+            folder.path() / "c.toml",
+            "name = \"c\"\n[[problems]]\nfiles = \"p.lab\"\n[[solvers]]\nsolver = \"auto\"\n");
+        run_experiment(folder.path(), {"run", "c.toml", "-o", version, "-q"});
+    }
+    const auto result = run_experiment(folder.path(), {"export", "1", "2", "1", "-o", "library"});
+    ASSERT_EQ(result.outcome.exit_code, 0) << result.errors;
+    const fs::path library = folder.path() / "library";
+    const auto manifest = nlohmann::json::parse(content(library / "manifest.json"));
+    ASSERT_EQ(manifest.size(), 2u);
+    std::set<std::int64_t> values;
+    for (const auto& entry : manifest) {
+        const std::string name = entry.at("name");
+        const auto problem = labeling::read_problem(library / (name + ".lab.gz"));
+        const auto solution = labeling::read_solution(library / (name + ".sol.gz"), problem);
+        EXPECT_TRUE(labeling::check_solution(problem, solution).value_matches) << name;
+        EXPECT_EQ(entry.at("best_value"), entry.at("labels_value")) << name;
+        EXPECT_EQ(entry.at("best_value").get<std::int64_t>(), solution.value) << name;
+        values.insert(solution.value);
+    }
+    EXPECT_EQ(values, (std::set<std::int64_t>{1, 2}));
+    // Two campaigns of one problem: no second group, so nothing can be told.
+    const auto compared = run_experiment(folder.path(), {"compare", "1", "1"});
+    EXPECT_EQ(compared.outcome.exit_code, 0);
+    EXPECT_NE(compared.output.find("cannot tell"), std::string::npos) << compared.output;
 }
 
 TEST(Report, AFalseClaimOfOptimalityStopsItInRed) {

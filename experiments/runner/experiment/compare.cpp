@@ -205,15 +205,19 @@ CampaignChange compare_campaigns(const CampaignRuns& before, const CampaignRuns&
     return CampaignComparer(before, after).compare();
 }
 
+/// In a word or two. Without an interval there is nothing to say, good or bad.
+std::string verdict(const SolverChange& change) {
+    if (change.is_regression()) return "REGRESSION";
+    const bool is_known = change.time_ratio.is_known || change.value_change.is_known;
+    if (!is_known) return "cannot tell, without a second group of problems";
+    return change.is_faster ? "faster" : "no regression";
+}
+
 std::string to_text(const CampaignChange& change) {
     std::ostringstream out;
     for (const SolverChange& s : change.solvers) {
         out << s.solver << ", " << s.problems << (s.problems == 1 ? " problem" : " problems")
-            << ": "
-            << (s.is_regression() ? "REGRESSION"
-                : s.is_faster     ? "faster"
-                                  : "no regression")
-            << "\n";
+            << ": " << verdict(s) << "\n";
         out << "  time after / before   " << ratio_interval(s.time_ratio)
             << (s.is_slower ? "  slower" : "") << "\n";
         out << "  values                " << s.better << " better, " << s.worse << " worse; mean "

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "experiment/best_solution.h"
+#include "experiment/cross_check.h"
 #include "experiment/json_values.h"
 #include "labeling/errors.h"
 #include "labeling/formats.h"
@@ -36,8 +37,11 @@ struct Entry {
     bool is_proven() const { return value && bound && *value >= *bound; }
 };
 
-void take_run(Entry& entry, const std::string& solver, const Record& record) {
+/// By the rules of the report: whose claims count is decided in one place.
+void take_run(Entry& entry, const SolverConfig& config, const Record& record) {
     if (record.outcome == Outcome::Wrong) return;
+    const std::string& solver = config.name;
+    const auto bound = claimed_bound(record, config);
     if (record.value) {
         if (!entry.value || *record.value > *entry.value) {
             entry.value = record.value;
@@ -45,10 +49,10 @@ void take_run(Entry& entry, const std::string& solver, const Record& record) {
         }
         if (*record.value == *entry.value) entry.value_by.insert(solver);
     }
-    if (record.bound && (!entry.bound || *record.bound < *entry.bound)) entry.bound = record.bound;
-    if (record.outcome != Outcome::Optimal || !record.bound || *record.bound != *record.value) {
-        return;
-    }
+    if (bound && (!entry.bound || *bound < *entry.bound)) entry.bound = bound;
+    const bool is_proof =
+        record.outcome == Outcome::Optimal && record.value && bound && *bound <= *record.value;
+    if (!is_proof) return;
     entry.proven_by.insert(solver);
     const double seconds = record.measures.user_seconds + record.measures.system_seconds;
     if (!entry.fastest_proof || seconds < *entry.fastest_proof) {
@@ -74,8 +78,16 @@ std::map<std::string, Entry> collect(const std::vector<LibrarySource>& sources) 
         for (std::size_t k = 0; k < plan.jobs.size(); ++k) {
             const PlannedProblem& problem = plan.problems[plan.jobs[k].problem];
             if (problem.is_study || !source.campaign.records[k]) continue;
-            take_run(entries[problem.hash], plan.solvers[plan.jobs[k].solver].name,
+            take_run(entries[problem.hash], plan.solvers[plan.jobs[k].solver],
                      *source.campaign.records[k]);
+        }
+    }
+    // Problems of two campaigns may have one name and, since something has changed, two contents.
+    std::set<std::string> names;
+    for (auto& [hash, entry] : entries) {
+        if (!names.insert(entry.problem.name).second) {
+            entry.problem.name += "-" + hash.substr(0, 8);
+            names.insert(entry.problem.name);
         }
     }
     return entries;
@@ -104,7 +116,8 @@ std::string in_units(const PlannedProblem& problem, std::optional<std::int64_t> 
     return text;
 }
 
-json metadata(const Entry& entry, bool has_labels, bool has_certificate) {
+json metadata(const Entry& entry, const std::optional<labeling::Solution>& labels,
+              bool has_certificate) {
     const PlannedProblem& p = entry.problem;
     return {{"name", p.name},
             {"hash", p.hash},
@@ -122,7 +135,8 @@ json metadata(const Entry& entry, bool has_labels, bool has_certificate) {
             {"proven_by", entry.proven_by},
             {"fastest_proof_cpu_seconds", or_null(entry.fastest_proof)},
             {"fastest_prover", entry.fastest_prover},
-            {"has_labels", has_labels},
+            {"has_labels", labels.has_value()},
+            {"labels_value", labels ? json(labels->value) : json()},
             {"has_certificate", has_certificate}};
 }
 
@@ -208,7 +222,7 @@ LibraryResult export_library(const std::vector<LibrarySource>& sources, const fs
             proof = certificate(problem, *best, options.proof_nodes);
             if (proof) labeling::write_text_file(folder / (name + ".pbp.gz"), *proof);
         }
-        const json about = metadata(entry, best.has_value(), proof.has_value());
+        const json about = metadata(entry, best, proof.has_value());
         labeling::write_text_file(folder / (name + ".json"), about.dump(1) + "\n");
         manifest.push_back(about);
         ++result.problems;

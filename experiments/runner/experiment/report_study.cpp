@@ -44,12 +44,14 @@ Table means(const ReportInput& input, bool are_differences) {
     const StudyComparison& study = input.study;
     const Plan& plan = input.campaign.plan;
     Table table;
-    table.caption =
-        are_differences
-            ? "Mean differences to " + plan.solvers[study.baseline].name +
-                  "'s meshes on the same mesh and scale, with 95% intervals by mesh: an interval "
-                  "that holds 0 shows no difference."
-            : "Means over all meshes and scales that each solver has a result for.";
+    table.caption = are_differences
+                        ? "Mean differences to " + plan.solvers[study.baseline].name +
+                              "'s meshes on the same mesh and scale, with 95% intervals by mesh: "
+                              "one that holds 0 "
+                              "shows no difference, nor that there is none; and of so many, one in "
+                              "twenty misses "
+                              "0 by chance."
+                        : "Means over all meshes and scales that each solver has a result for.";
     table.columns = columns_with_measures(
         {"solver", "meshes × scales",
          are_differences ? "objective gap [percentage points]" : "objective gap [%]"},
