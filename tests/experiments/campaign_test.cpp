@@ -174,6 +174,34 @@ TEST_F(Campaign, AProblemThatWasChangedIsNotRun) {
         << result.errors;
 }
 
+/// A triangle, so high.
+std::string triangle(const char* height) {
+    return std::string("OFF\n3 1 0\n0 0 0\n1 0 0\n0 ") + height + " 0\n3 0 1 2\n";
+}
+
+TEST_F(Campaign, MeshesOfOneNameAreNotTakenForEachOther) {
+    for (const char* part : {"a", "b"}) {
+        fs::create_directories(out(part));
+        labeling::write_text_file(out(part) / "m.off", triangle(part[0] == 'a' ? "1" : "2"));
+    }
+    const std::string tail = "scales = \"50%\"\nstudy = true\n[[solvers]]\nsolver = \"greedy\"\n";
+    labeling::write_text_file(
+        out("two.toml"),
+        "name = \"two\"\n[[problems]]\nmeshes = [\"a/m.off\", \"b/m.off\"]\n" + tail);
+    const auto two = run({"plan", "two.toml", "-o", "two"});
+    EXPECT_EQ(two.outcome.exit_code, 3);
+    EXPECT_NE(two.errors.find("b/m.off: another mesh is"), std::string::npos) << two.errors;
+    // And one that was changed after it was planned is not studied.
+    labeling::write_text_file(out("one.toml"),
+                              "name = \"one\"\n[[problems]]\nmeshes = \"a/m.off\"\n" + tail);
+    ASSERT_EQ(run({"plan", "one.toml", "-o", "one", "-q"}).outcome.exit_code, 0);
+    labeling::write_text_file(out("one") / "meshes" / "m.off", triangle("3"));
+    const auto one = run({"resume", "one", "-q"});
+    EXPECT_EQ(one.outcome.exit_code, 3);
+    EXPECT_NE(one.errors.find("m.off: not the mesh that was planned"), std::string::npos)
+        << one.errors;
+}
+
 TEST_F(Campaign, BadInputIsRefusedBeforeAnythingRuns) {
     const auto refused = [&](const std::string& text, const std::string& part) {
         labeling::write_text_file(out("bad.toml"), text);

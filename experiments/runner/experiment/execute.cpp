@@ -190,10 +190,22 @@ labeling::ProgramOutcome run_watched(const RunCommand& command, const Limits& li
     return outcome;
 }
 
+[[noreturn]] void fail_as_changed(const fs::path& file, const char* what) {
+    throw labeling::InputError(file.string() + ": not the " + what +
+                               " that was planned (its hash differs)");
+}
+
+void require_planned_mesh(const fs::path& file, const std::string& hash) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string content(std::istreambuf_iterator<char>(in), {});
+    if (content_hash(content) != hash) fail_as_changed(file, "mesh");
+}
+
 void add_provenance(const PlannedProblem& problem, const Job& job, Record& record) {
     record.provenance = provenance(own_program("labeling-solve"));
     record.provenance["instance"] = problem.hash;
     record.provenance["seed"] = std::to_string(job.seed);
+    if (problem.is_study) record.provenance["study_program_hash"] = program_hash("scalefcn");
 }
 
 }  // namespace
@@ -213,6 +225,7 @@ std::optional<Record> execute(const Plan& plan, const Job& job, const fs::path& 
     if (::getloadavg(load, 1) == 1) record.measures.load = load[0];
 
     const fs::path home = fs::absolute(folder);
+    if (planned.is_study) require_planned_mesh(home / planned.file, planned.hash);
     const RunFolder scratch(home / "scratch" / (job.key + own_mark()));
     ::setenv("TMPDIR", scratch.path().c_str(), 1);
     const RunCommand command = run_command(plan, job, home, scratch.path());
@@ -229,8 +242,7 @@ std::optional<Record> execute(const Plan& plan, const Job& job, const fs::path& 
     } else {
         const auto problem = labeling::read_problem(home / planned.file);
         if (hexadecimal(problem.hash()) != planned.hash) {
-            throw labeling::InputError((home / planned.file).string() +
-                                       ": not the problem that was planned (its hash differs)");
+            fail_as_changed(home / planned.file, "problem");
         }
         // A program of the user's saw the renamed problem and answers in its names.
         const bool is_renamed = !solver.program.empty() && job.renaming != 0;

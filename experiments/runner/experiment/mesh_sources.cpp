@@ -16,8 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Marks what is complete.
+/// Marks what is complete, and holds the hash of the program that made it.
 constexpr const char* kDone = "done";
+
+bool is_done(const fs::path& home, const std::string& program) {
+    std::ifstream in(home / kDone, std::ios::binary);
+    return in && std::string(std::istreambuf_iterator<char>(in), {}) == program;
+}
 
 std::vector<std::string> words_of(const std::string& text) {
     std::istringstream stream(text);
@@ -39,10 +44,17 @@ std::string plain_name(const std::string& text) {
     return name;
 }
 
+/// What was made of one mesh must not be taken for what another one gives: neither where two have
+/// one name, nor where a mesh has changed since a preparation that was killed.
 void copy_mesh(const fs::path& from, const fs::path& to) {
     std::error_code error;
     fs::create_directories(to.parent_path());
-    fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+    if (fs::exists(to)) {
+        if (labeling::read_text_file(from) == labeling::read_text_file(to)) return;
+        throw labeling::InputError(from.string() + ": another mesh is " + to.string() +
+                                   " already; give it another name, or prepare in a new folder");
+    }
+    fs::copy_file(from, to, fs::copy_options::none, error);
     if (error) {
         throw labeling::InputError(from.string() + ": cannot be copied: " + error.message());
     }
@@ -140,7 +152,8 @@ std::vector<fs::path> adapted_problems(const MeshSource& mesh, const AdaptReques
     const std::string part = request.wants_first_only ? "_first" : "";
     const fs::path home = folder / "adapted" / (adaptation_name(mesh.name, request) + part);
     const fs::path saved = home / "problems";
-    if (!fs::exists(home / kDone)) {
+    const std::string program = program_hash("scalefcn");
+    if (!is_done(home, program)) {
         fs::remove_all(home);
         fs::create_directories(home);
         std::vector<std::string> words{own_program("scalefcn").string(), "adapt",
@@ -154,7 +167,7 @@ std::vector<fs::path> adapted_problems(const MeshSource& mesh, const AdaptReques
         words.insert(words.end(), {"--save-problems", saved.string(), "-q", "--no-timings", "-o",
                                    (home / "network.fcn.json").string()});
         run_own_program(words, home / "log");
-        labeling::write_text_file(home / kDone, "");
+        labeling::write_text_file(home / kDone, program);
     }
     std::vector<fs::path> files;
     for (int k = 1;; ++k) {

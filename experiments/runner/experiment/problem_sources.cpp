@@ -165,7 +165,11 @@ private:
             one.name = name + "_" + std::to_string(k + 1);
             one.tags["iteration"] = std::to_string(k + 1);
             const LabelingProblem problem = labeling::read_problem(files[k]);
-            if (problem.label_count() > 0) add(problem, std::move(one), source);
+            if (problem.label_count() == 0) {
+                tell_(one.name + ": no labels, left out");
+                continue;
+            }
+            add(problem, std::move(one), source);
         }
     }
 

@@ -3,7 +3,11 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
 
+#include "experiment/hash.h"
 #include "labeling_mip/external_process.h"
 
 namespace experiment {
@@ -28,6 +32,16 @@ std::filesystem::path own_program(const std::string& name) {
     }
     const auto found = labeling::find_program(name);
     return found.empty() ? std::filesystem::path(name) : found;
+}
+
+std::string program_hash(const std::string& name) {
+    static std::map<std::string, std::string> hashes;
+    const auto [it, is_new] = hashes.emplace(name, "");
+    if (is_new) {
+        std::ifstream in(own_program(name), std::ios::binary);
+        it->second = content_hash(std::string(std::istreambuf_iterator<char>(in), {}));
+    }
+    return it->second;
 }
 
 std::string python_for_solvers() { return python("LABELING_PYTHON", "solvers-venv"); }

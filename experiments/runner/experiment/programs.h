@@ -8,6 +8,9 @@ namespace experiment {
 /// A program of this project: beside this one, else by PATH, else the bare name.
 std::filesystem::path own_program(const std::string& name);
 
+/// Hash of the content of a program of ours; computed once.
+std::string program_hash(const std::string& name);
+
 /// The Python that has the solvers' packages: LABELING_PYTHON, build/solvers-venv, python3.
 std::string python_for_solvers();
 
