@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/built_from.h"
 #include "experiment/hash.h"
 #include "experiment/programs.h"
 #include "labeling_mip/external_process.h"
@@ -63,24 +64,12 @@ std::string processor_name() {
     return "";
 }
 
-/// Of the sources that this program was built from, as far as they are still there.
-void add_commit(json& result) {
-    const std::string root = EXPERIMENT_SOURCE_DIR;
-    result["commit"] = or_unknown(first_line(output_of({"git", "-C", root, "rev-parse", "HEAD"})));
-    if (result["commit"] == "unknown") {
-        result["changed_sources"] = "unknown";
-        return;
-    }
-    const std::string changes =
-        output_of({"git", "-C", root, "status", "--porcelain", "--untracked-files=no"});
-    result["changed_sources"] = changes.empty() ? "no" : "yes";
-}
-
 }  // namespace
 
 json provenance(const fs::path& solve_program) {
     json result;
-    add_commit(result);
+    result["commit"] = kBuiltFromCommit;
+    result["changed_sources"] = kBuiltFromChangedSources;
     result["version"] = EXPERIMENT_VERSION;
     result["compiler"] = EXPERIMENT_COMPILER;
     result["flags"] = EXPERIMENT_FLAGS;
