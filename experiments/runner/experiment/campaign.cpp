@@ -204,6 +204,7 @@ private:
     }
 
     void make(const Job& job, int processor) {
+        const auto begin = std::chrono::steady_clock::now();
         const fs::path log = folder_ / "scratch" / (job.key + ".log");
         fs::create_directories(log.parent_path());
         std::string reason;
@@ -224,7 +225,7 @@ private:
             run.signal_when_alone = SIGTERM;  // it has a solver to end
             outcome = labeling::run_program(run);
             if (options_.stop.stop_requested()) return;
-            if (const auto record = read_record(folder_, job.key)) return keep(job, *record);
+            if (const auto record = read_record(folder_, job.key)) return keep(job, *record, begin);
             reason = last_line(log);
             // Bad input and a disk that is full do not get better by trying again.
             if (outcome.end == labeling::ProgramEnd::Exited && outcome.exit_code == 3) break;
@@ -236,17 +237,20 @@ private:
                          "what watched over it died of signal " + std::to_string(outcome.signal) +
                              ", " + std::to_string(kMostAttempts) + " times");
             write_record(record, folder_);
-            return keep(job, record);
+            return keep(job, record, begin);
         }
         throw InputError("no record of " + describe(plan_, job) + " (" + job.key +
                          "): " + (reason.empty() ? "its process ended without a word" : reason));
     }
 
-    void keep(const Job& job, const Record& record) {
+    /// What remains is estimated by whole runs: reading, checking and recording take their time,
+    /// too.
+    void keep(const Job& job, const Record& record, std::chrono::steady_clock::time_point begin) {
+        const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;
         const std::lock_guard lock(mutex_);
         database_.store(record);
         ++done_;
-        remaining_.has_ended(job, record.measures.wall_seconds);
+        remaining_.has_ended(job, whole.count());
         char seconds[32];
         std::snprintf(seconds, sizeof seconds, " (%.2f s)", record.measures.wall_seconds);
         tell(describe(plan_, job) + ": " + to_string(record.outcome) + seconds);
