@@ -6,7 +6,10 @@
 // Creases, with noise of 0, 5 and 10% of the mean edge: precision, recall and number of arcs of
 // detect_sharp and of CGAL's detect_sharp_edges at the same 40 degrees, and at the angle that is
 // best for it in hindsight (by F-score, in steps of 5 degrees). CGAL marks edges; its arcs are what
-// the same tracing makes of them. See detectors_noise_scale for the measures.
+// the same tracing makes of them. The last four columns compare the same work: marking the edges
+// above 40 degrees, and also numbering the patches between them, by edges_above and patches_between
+// and by CGAL's detect_sharp_edges and sharp_edges_segmentation; nanoseconds an edge.
+// See detectors_noise_scale for the measures.
 //
 // Curvatures on the torus of radii 0.35 and 0.15, whose curvatures are known: root mean square
 // error of the two principal ones over their root mean square, of our fits (three edges; cubic) and
@@ -22,11 +25,13 @@
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <numbers>
 #include <utility>
 
 #include "features/edge_chains.h"
 #include "features/features.h"
 #include "features/local_fit.h"
+#include "geometry/errors.h"
 #include "known_curves.h"
 
 namespace {
@@ -38,7 +43,9 @@ using Fitting = CGAL::Monge_via_jet_fitting<Kernel>;
 
 constexpr double kTorusRadius = 0.35, kTubeRadius = 0.15;
 constexpr int kRings = 3;
-constexpr int kRepeats = 5;  // of fast runs, whose mean is printed
+constexpr int kRepeats = 3;  // of fast runs, whose mean is printed
+constexpr int kThresholdRepeats = 20;
+constexpr double kThresholdDegrees = 40;
 
 double seconds_since(std::clock_t start) {
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -60,7 +67,8 @@ CgalMesh cgal_mesh(const Mesh& mesh) {
 
 struct Creases {
     double seconds = 0;
-    double segmentation_seconds = 0;  ///< of CGAL
+    double threshold_seconds = 0;     ///< marking edges alone
+    double segmentation_seconds = 0;  ///< marking edges and numbering patches
     CurveScore score;
     double f_score() const {
         const double sum = score.precision + score.recall;
@@ -75,6 +83,17 @@ Creases our_creases(const LoadedMesh& mesh, const KnownCurves& known, double tol
     for (int i = 0; i < kRepeats; ++i) network = detect_sharp(mesh);
     result.seconds = seconds_since(start) / kRepeats;
     result.score = score(network, known, tolerance);
+    const double angle = kThresholdDegrees * std::numbers::pi / 180;
+    std::vector<bool> marks;
+    const std::clock_t threshold_start = std::clock();
+    for (int i = 0; i < kThresholdRepeats; ++i) marks = edges_above(mesh.mesh, angle);
+    result.threshold_seconds = seconds_since(threshold_start) / kThresholdRepeats;
+    std::vector<int> patches;
+    const std::clock_t segmentation_start = std::clock();
+    for (int i = 0; i < kThresholdRepeats; ++i)
+        patches = patches_between(mesh.mesh, edges_above(mesh.mesh, angle));
+    result.segmentation_seconds = seconds_since(segmentation_start) / kThresholdRepeats;
+    if (patches.empty() || marks.empty()) throw LogicError("a mesh without faces");
     return result;
 }
 
@@ -82,19 +101,20 @@ Creases cgal_creases(const LoadedMesh& mesh, CgalMesh& surface, double degrees,
                      const KnownCurves& known, double tolerance) {
     Creases result;
     auto marks = surface.add_property_map<CgalMesh::Edge_index, bool>("e:sharp", false).first;
+    const int repeats = degrees == kThresholdDegrees ? kThresholdRepeats : 1;
     const std::clock_t start = std::clock();
-    for (int i = 0; i < kRepeats; ++i) {
+    for (int i = 0; i < repeats; ++i) {
         for (const auto edge : surface.edges()) marks[edge] = false;
         CGAL::Polygon_mesh_processing::detect_sharp_edges(surface, degrees, marks);
     }
-    result.seconds = seconds_since(start) / kRepeats;
+    result.threshold_seconds = seconds_since(start) / repeats;
     auto patches = surface.add_property_map<CgalMesh::Face_index, int>("f:patch", 0).first;
     const std::clock_t segmentation_start = std::clock();
-    for (int i = 0; i < kRepeats; ++i) {
+    for (int i = 0; i < repeats; ++i) {
         for (const auto edge : surface.edges()) marks[edge] = false;
         CGAL::Polygon_mesh_processing::sharp_edges_segmentation(surface, degrees, marks, patches);
     }
-    result.segmentation_seconds = seconds_since(segmentation_start) / kRepeats;
+    result.segmentation_seconds = seconds_since(segmentation_start) / repeats;
     std::vector<bool> is_marked(mesh.mesh.n_edges(), false);
     for (const auto edge : mesh.mesh.edges()) {
         const auto h = mesh.mesh.halfedge_handle(edge, 0);
@@ -119,7 +139,7 @@ void compare_creases(const std::string& argument) {
         const LoadedMesh mesh = noisy_mesh(part, noise, 1);
         const Creases ours = our_creases(mesh, known, tolerance);
         CgalMesh surface = cgal_mesh(mesh.mesh);
-        const Creases cgal = cgal_creases(mesh, surface, 40, known, tolerance);
+        const Creases cgal = cgal_creases(mesh, surface, kThresholdDegrees, known, tolerance);
         Creases best = cgal;
         for (double degrees = 20; degrees <= 85; degrees += 5) {
             const Creases other = cgal_creases(mesh, surface, degrees, known, tolerance);
@@ -130,8 +150,11 @@ void compare_creases(const std::string& argument) {
         for (const Creases& c : {ours, cgal, best})
             std::printf(" %.3f | %.3f | %zu |", c.score.precision, c.score.recall,
                         c.score.curve_count);
-        std::printf(" %.4f | %.4f | %.4f |\n", ours.seconds, cgal.seconds,
-                    cgal.segmentation_seconds);
+        const double edges = static_cast<double>(mesh.mesh.n_edges());
+        std::printf(" %.4f | %.1f | %.1f | %.1f | %.1f |\n", ours.seconds,
+                    1e9 * ours.threshold_seconds / edges, 1e9 * cgal.threshold_seconds / edges,
+                    1e9 * ours.segmentation_seconds / edges,
+                    1e9 * cgal.segmentation_seconds / edges);
         std::fflush(stdout);
     }
 }
@@ -232,9 +255,9 @@ int main(int argc, char** argv) {
     try {
         std::printf(
             "| part | faces | noise %% | known | precision | recall | arcs | CGAL 40: precision |"
-            " recall | arcs | CGAL best: precision | recall | arcs | seconds | CGAL s |"
-            " with patches |\n"
-            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+            " recall | arcs | CGAL best: precision | recall | arcs | seconds | marks ns |"
+            " CGAL ns | patches ns | CGAL ns |\n"
+            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
         for (int i = 1; i < argc; ++i) compare_creases(argv[i]);
         std::printf(
             "\n| faces | noise %% | error | CGAL 3: error | CGAL 4: error | seconds | CGAL 3 s |"

@@ -33,7 +33,10 @@ SharpOptions sharp_options(const DetectionArguments& arguments, double diagonal)
     if (arguments.low_angle_degrees > arguments.sharp_angle_degrees)
         throw UsageError(fmt::format("--low-angle {} must not exceed --sharp-angle {}",
                                      arguments.low_angle_degrees, arguments.sharp_angle_degrees));
+    if (arguments.is_plain && (arguments.sign != "both" || !arguments.min_length.empty()))
+        throw UsageError("--sharp-plain goes with --sharp-angle alone");
     SharpOptions options;
+    options.is_plain = arguments.is_plain;
     options.high_angle = arguments.sharp_angle_degrees * kRadians;
     options.low_angle = arguments.low_angle_degrees * kRadians;
     if (arguments.sign == "convex") options.sign = SharpSign::Convex;
@@ -223,6 +226,10 @@ void add_sharp_arguments(CLI::App& parser, DetectionArguments& arguments) {
         ->group(kGroup)
         ->check(CLI::Range(0.0, 180.0))
         ->capture_default_str();
+    parser
+        .add_flag("--sharp-plain", arguments.is_plain,
+                  "Every edge of --sharp-angle and no other: no hysteresis, noise is not looked at")
+        ->group(kGroup);
     parser.add_option("--sign", arguments.sign, "Which edges: both, convex, concave")
         ->group(kGroup)
         ->check(CLI::IsMember({"both", "convex", "concave"}))

@@ -21,6 +21,7 @@ struct DetectionArguments {
     double sharp_angle_degrees = 40;
     double low_angle_degrees = 18;
     std::string sign = "both";
+    bool is_plain = false;        ///< sharp edges by a threshold alone
     std::string min_length = "";  ///< empty = keep all
 
     int patch_count = 100;

@@ -22,10 +22,19 @@ struct SharpOptions {
     double low_angle = 0.3141592653589793;   ///< radians (18 degrees): chains continue above it
     SharpSign sign = SharpSign::Both;
     double min_length = 0;  ///< shorter connected chains are dropped; mesh units
+    bool is_plain = false;  ///< every edge of high_angle and more; nothing above is looked at
 };
 
-/// Sharp edges by dihedral hysteresis.
+/// Sharp edges by dihedral hysteresis, or by a plain threshold.
 FeatureCurveNetwork detect_sharp(const LoadedMesh& mesh, const SharpOptions& options = {});
+
+/// Edges whose dihedral angle is at least `angle` (radians, in (0, pi]) and no others; per edge.
+/// Linear time.
+std::vector<bool> edges_above(const Mesh& mesh, double angle);
+
+/// Numbers of the parts into which marked edges divide the faces, from 0 in the order of their
+/// first faces; per face. Linear time.
+std::vector<int> patches_between(const Mesh& mesh, const std::vector<bool>& is_marked_edge);
 
 struct VsaOptions {
     int patch_count = 100;

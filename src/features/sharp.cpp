@@ -147,6 +147,12 @@ FeatureCurveNetwork detect_sharp(const LoadedMesh& mesh, const SharpOptions& opt
                          std::to_string(options.min_length));
     }
     const MeshArrays arrays = mesh_arrays(mesh.mesh);
+    if (options.is_plain) {
+        FeatureCurveNetwork network =
+            trace_edges(arrays, edges_above(mesh.mesh, options.high_angle), {}, "sharp").network;
+        set_provenance(network, mesh);
+        return network;
+    }
     const RobustDihedrals angles = robust_dihedrals(arrays, options.low_angle);
     const EdgeNetwork edges =
         trace_edges(arrays, sharp_edges(arrays, angles, options), {}, "sharp");

@@ -205,5 +205,51 @@ INSTANTIATE_TEST_SUITE_P(Cad, SharpOnCad,
                          ::testing::Values(CadCase{"CrankArm", 40, 18}, CadCase{"frame", 60, 48}),
                          [](const auto& which) { return which.param.name; });
 
+TEST(Threshold, MarksWhatTheAnglesSay) {
+    for (const char* name : {"gear", "octaflower", "thin-wall", "noisy-plane"}) {
+        const Mesh mesh = make_model(name, {}).mesh;
+        for (double degrees : {1.0, 18.0, 40.0, 89.0, 91.0, 150.0}) {
+            const double angle = degrees * std::numbers::pi / 180;
+            const std::vector<bool> marks = edges_above(mesh, angle);
+            ASSERT_EQ(marks.size(), mesh.n_edges());
+            for (const auto edge : mesh.edges()) {
+                const double found = std::abs(dihedral_angle(mesh, edge));
+                if (std::abs(found - angle) < 1e-9) continue;
+                ASSERT_EQ(marks[edge.idx()], found > angle) << name << " edge " << edge.idx();
+            }
+        }
+    }
+    const Mesh mesh = make_model("box", {}).mesh;
+    EXPECT_THROW(edges_above(mesh, 0), InputError);
+    EXPECT_THROW(edges_above(mesh, std::nan("")), InputError);
+}
+
+TEST(Threshold, PlainNetworkIsTheMarkedEdges) {
+    const LoadedMesh mesh = model("noisy-plane");
+    SharpOptions options;
+    options.is_plain = true;
+    double length = 0;
+    const std::vector<bool> marks = edges_above(mesh.mesh, options.high_angle);
+    for (const auto edge : mesh.mesh.edges())
+        if (marks[edge.idx()]) length += mesh.mesh.calc_edge_length(edge);
+    EXPECT_GT(length, 0);
+    EXPECT_NEAR(detect_sharp(mesh, options).total_length(), length, 1e-9 * length);
+}
+
+TEST(Threshold, PatchesLieBetweenMarkedEdges) {
+    const Mesh mesh = make_model("gear", {}).mesh;
+    const std::vector<bool> marks = edges_above(mesh, 0.7);
+    const std::vector<int> patches = patches_between(mesh, marks);
+    // Top, bottom, bore, and three faces and a gap of each of eight teeth.
+    EXPECT_EQ(*std::max_element(patches.begin(), patches.end()) + 1, 3 + 4 * 8);
+    EXPECT_EQ(patches.front(), 0);
+    for (const auto edge : mesh.edges()) {
+        const auto h = mesh.halfedge_handle(edge, 0);
+        const int left = patches[mesh.face_handle(h).idx()];
+        const int right = patches[mesh.face_handle(mesh.opposite_halfedge_handle(h)).idx()];
+        EXPECT_EQ(left != right, static_cast<bool>(marks[edge.idx()]));
+    }
+}
+
 }  // namespace
 }  // namespace fcn
