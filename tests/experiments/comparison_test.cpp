@@ -50,6 +50,13 @@ TEST(CrossCheck, OptimalWithinAGapClaimsItsBoundAlone) {
     b.optimal(p, s, 99, 1).bound = 100;
     EXPECT_TRUE(cross_check(b.runs).contradictions.empty());
     EXPECT_TRUE(compare_solvers(b.runs).cells[s][p].is_proven);
+    // Without a bound it claims what the gap allows, and no less.
+    b.runs.records.back()->bound.reset();
+    EXPECT_TRUE(cross_check(b.runs).contradictions.empty());
+    EXPECT_TRUE(compare_solvers(b.runs).cells[s][p].is_proven);
+    b.runs.records.back()->value = 98;
+    b.runs.plan.solvers[s].limits.gap = 0.01;
+    ASSERT_EQ(cross_check(b.runs).contradictions.size(), 1u);
 }
 
 TEST(CrossCheck, KnownOptimaBindBothWays) {

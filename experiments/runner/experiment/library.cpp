@@ -40,7 +40,7 @@ struct Entry {
 /// By the rules of the report: whose claims count is decided in one place.
 void take_run(Entry& entry, const SolverConfig& config, const Record& record) {
     if (record.outcome == Outcome::Wrong) return;
-    const std::string& solver = config.name;
+    const std::string solver = config.name + (config.start.empty() ? "" : " (given a start)");
     const auto bound = claimed_bound(record, config);
     if (record.value) {
         if (!entry.value || *record.value > *entry.value) {

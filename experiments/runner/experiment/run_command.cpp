@@ -77,6 +77,7 @@ std::vector<std::string> template_words(const SolverConfig& solver, std::uint64_
         {"result", files.result.string()},
         {"start", solver.start.empty() ? "" : files.start.string()},
         {"time", solver.limits.seconds ? number(*solver.limits.seconds) : ""},
+        {"gap", solver.limits.gap > 0 ? number(solver.limits.gap) : ""},
         {"seed", std::to_string(seed)},
         {"threads", std::to_string(solver.threads)},
         {"memory", std::to_string(solver.limits.memory_mib)},

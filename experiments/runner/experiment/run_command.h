@@ -17,9 +17,9 @@ struct RunCommand {
 
 /// For a solver of this project: labeling-solve; for a study: scalefcn-experiment study-run; for a
 /// program: its words with {problem} (a plain .lab file), {solution}, {result}, {start}, {time},
-/// {seed}, {threads}, {memory} (MiB), {sources} and {programs} (folders) replaced; what stands in [
-/// ] is left out where its placeholder has no value. Writes what the program is to read into
-/// `scratch`.
+/// {gap}, {seed}, {threads}, {memory} (MiB), {sources} and {programs} (folders) replaced; what
+/// stands in [ ] is left out where its placeholder has no value. Writes what the program is to read
+/// into `scratch`.
 RunCommand run_command(const Plan& plan, const Job& job, const std::filesystem::path& home,
                        const std::filesystem::path& scratch);
 
