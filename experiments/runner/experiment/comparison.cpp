@@ -89,11 +89,10 @@ private:
         const RunReading reading = reader.read(j);
         if (reading.standing != Standing::Taken) return;
         if (solver.limits.seconds && reading.seconds > reading.limit) ++summary.runs_over_limit;
-        if (!reading.has_value) return;
-        if (std::isnan(summary.shortest) || reading.seconds < summary.shortest) {
-            summary.shortest = reading.seconds;
-        }
-        summary.ended_unproven += !reading.is_proven && !reading.was_stopped;
+        summary.ended_unproven += reading.has_value && !reading.is_proven && !reading.was_stopped;
+        if (!reading.is_proven) return;
+        summary.shortest_proof = std::fmin(summary.shortest_proof, reading.seconds);
+        summary.longest_proof = std::fmax(summary.longest_proof, reading.seconds);
     }
 
     Cell cell_of(const std::vector<std::size_t>& jobs, const RunReader& reader) {

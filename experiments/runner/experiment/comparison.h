@@ -51,8 +51,9 @@ struct SolverSummary {
     std::array<std::size_t, kTargets.size()> reached{};
     double instructions = 0;  ///< geometric mean; NaN where none were counted
     double spread = 0;        ///< geometric mean; NaN where there is none
-    double shortest = std::numeric_limits<double>::quiet_NaN();  ///< run that gave an answer,
-                                                                 ///< seconds; NaN without any
+    /// Of runs with a proof, seconds; NaN without any.
+    double shortest_proof = std::numeric_limits<double>::quiet_NaN();
+    double longest_proof = std::numeric_limits<double>::quiet_NaN();
     std::size_t ended_unproven = 0;  ///< runs that ended by themselves with an answer and no proof
 };
 

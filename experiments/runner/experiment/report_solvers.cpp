@@ -31,6 +31,11 @@ void mark_best(Table& table, std::size_t column, bool is_smallest, std::size_t r
     }
 }
 
+std::string proof_range(const SolverSummary& sum) {
+    if (std::isnan(sum.longest_proof)) return "–";
+    return seconds_text(sum.shortest_proof) + " to " + seconds_text(sum.longest_proof);
+}
+
 std::string instruction_text(double instructions) {
     return std::isnan(instructions) ? "–" : decimal_text(instructions / 1e9, 3);
 }
@@ -51,8 +56,9 @@ public:
 
     Table exact(const std::vector<std::size_t>& solvers, bool has_virtual_best) const {
         Table table;
-        table.columns = {"solver",    "problems",   "proven",          "shifted geometric mean [s]",
-                         "PAR10 [s]", "fastest on", "shortest run [s]"};
+        table.columns = {
+            "solver",    "problems",   "proven",           "shifted geometric mean [s]",
+            "PAR10 [s]", "fastest on", "a proof takes [s]"};
         if (comparison_.has_instructions) {
             table.columns.push_back("instructions, geometric mean [10^9]");
         }
@@ -152,7 +158,7 @@ private:
                                    {seconds_interval(sum.time), sum.time.estimate},
                                    {seconds_interval(sum.par10), sum.par10.estimate},
                                    number(sum.fastest),
-                                   {seconds_text(sum.shortest), sum.shortest}};
+                                   {proof_range(sum), sum.longest_proof}};
         if (comparison_.has_instructions) {
             row.emplace_back(instruction_text(sum.instructions), sum.instructions);
         }
@@ -262,7 +268,7 @@ void add_exact_solvers(const ReportInput& input, Document& document) {
             "Solvers that claim bounds. Means are over the problems that each one took; "
             "where these differ, rows cannot be compared, see the pairs. The best "
             "number of a column is bold where all took as many problems. Times hold a program's "
-            "start: the shortest run says how long that is, at most.";
+            "start: its shortest proof says how long that is, at most.";
         if (!std::isnan(input.comparison.solvers[solvers[0]].spread)) {
             table.caption +=
                 " The last column is what seeds and renamings alone change: the "
