@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <set>
 
 #include "experiment/pattern.h"
 #include "experiment/plan.h"
@@ -119,6 +122,43 @@ TEST(Corpora, AllOfThemCanBeRead) {
         ++count;
     }
     EXPECT_GE(count, 7);
+}
+
+std::set<std::string> meshes_of(const std::string& corpus) {
+    std::set<std::string> meshes;
+    const std::string file = SCALEFCN_SOURCE_DIR "/experiments/corpora/" + corpus + ".toml";
+    for (const ProblemConfig& problems : read_config(file).problems) {
+        meshes.insert(problems.meshes.begin(), problems.meshes.end());
+    }
+    return meshes;
+}
+
+TEST(Corpora, NothingIsJudgedByAMeshThatWasTunedOn) {
+    auto tuned = meshes_of("tuning");
+    // Of the development problems.
+    for (const char* mesh : {"cgal:fandisk", "cgal:ChineseDragon-10kv", "cgal:mech-holes-shark"}) {
+        tuned.insert(mesh);
+    }
+    const auto judged = meshes_of("judging");
+    EXPECT_GE(judged.size(), 8u);
+    for (const std::string& mesh : judged) EXPECT_FALSE(tuned.contains(mesh)) << mesh;
+    // The lists are of these meshes, each hash once in both.
+    std::set<std::string> hashes;
+    for (const char* corpus : {"tuning", "judging"}) {
+        const auto meshes = meshes_of(corpus);
+        std::ifstream list(std::string(SCALEFCN_SOURCE_DIR "/experiments/problems/") + corpus +
+                           ".txt");
+        std::string name, hash;
+        int count = 0;
+        while (list >> name >> hash) {
+            ++count;
+            EXPECT_TRUE(hashes.insert(hash).second) << name;
+            EXPECT_TRUE(std::any_of(meshes.begin(), meshes.end(), [&](const std::string& mesh) {
+                return name.starts_with(mesh.substr(5) + "_");
+            })) << name;
+        }
+        EXPECT_GE(count, 48) << corpus;
+    }
 }
 
 std::vector<PlannedProblem> two_problems() {
