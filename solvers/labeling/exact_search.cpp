@@ -3,7 +3,8 @@
 // allowance. A part of a few labels goes straight to the depth-first tree; a larger one gets a
 // local search as long as its size justifies, then branch-and-cut where an LP is linked. Value and
 // bound of the whole are the sums over the parts, so both are known at any time; until a part's
-// turn comes its bound is that of a clique cover.
+// turn comes its bound is that of a clique cover. Large problems have a quick one of the whole
+// before anything else is done.
 #include "labeling/exact_search.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "labeling/greedy.h"
 #include "labeling/part_search.h"
 #include "labeling/propagation.h"
+#include "labeling/quick_clique_bound.h"
 #include "labeling/reduced_search.h"
 #include "labeling/reductions.h"
 #include "labeling/rows.h"
@@ -30,16 +32,18 @@ constexpr std::int64_t kFirstAllowance = 100'000;  ///< ticks per label of a par
 
 class ExactSearch {
 public:
-    /// `given` is set to what is known before anything else is done, also if a pass is stopped.
+    /// `given` and `bound` are set to what is known before anything else is done, also if a pass
+    /// is stopped.
     ExactSearch(const LabelingProblem& problem, const SolveOptions& options,
                 const ExactSearchOptions& exact, RunControl& control,
-                std::optional<Solution>& given)
+                std::optional<Solution>& given, Value& bound)
         : original_(problem),
           options_(options),
           exact_(exact),
           techniques_(techniques_of(options, exact.name)),
           control_(control),
           given_(given = first_solution()),
+          first_bound_(bound = first_bound()),
           reduced_(techniques_.reductions ? std::optional(reduced_problem()) : std::nullopt),
           problem_(reduced_ ? reduced_->problem() : original_),
           warm_start_(start_of_rest()),
@@ -58,7 +62,7 @@ public:
         for (const auto& m : members) {
             Part part;
             part.sub = decomposer_.extract(propagator_, m);
-            part.bound = sum_of_gains(part.sub.problem);
+            part.bound = quick_clique_bound(part.sub.problem, control_);
             parts_.push_back(std::move(part));
         }
         decomposer_.set_guard({});
@@ -108,8 +112,8 @@ private:
             solution = reduced_ ? reduced_->lift(original_, whole) : std::move(whole);
         }
         if (given_ && (!solution || given_->value > solution->value)) solution = given_;
-        SolveResult result =
-            finish(original_, exact_.name, control_, std::move(solution), bound + offset());
+        SolveResult result = finish(original_, exact_.name, control_, std::move(solution),
+                                    std::min(first_bound_, bound + offset()));
         add_reductions(result);
         result.statistics["parts"] = static_cast<double>(parts_.size());
         result.statistics["narrow-parts"] = static_cast<double>(treewidth_.solved);
@@ -140,6 +144,14 @@ private:
         }
         if (first) control_.report(first->value, std::nullopt);
         return first;
+    }
+
+    /// Of a large problem, before reductions.
+    Value first_bound() {
+        if (!takes_long_to_reduce(original_)) return sum_of_gains(original_);
+        const Value bound = quick_clique_bound(original_, control_);
+        control_.report(std::nullopt, bound);
+        return bound;
     }
 
     /// Where labels have many neighbours, reductions take long and find little: they get no more
@@ -177,7 +189,8 @@ private:
             if (part.value != kNoValue) value += part.value;
             is_complete = is_complete && part.value != kNoValue;
         }
-        control_.report(is_complete ? std::optional(value) : std::nullopt, bound);
+        control_.report(is_complete ? std::optional(value) : std::nullopt,
+                        std::min(bound, first_bound_));
     }
 
     PartSearchOptions part_options(Part& part) {
@@ -263,6 +276,7 @@ private:
     const Techniques techniques_;
     RunControl& control_;
     const std::optional<Solution>& given_;  ///< known before anything else is done
+    const Value first_bound_;
     const std::optional<ReducedProblem> reduced_;
     const LabelingProblem& problem_;  ///< what is left after reductions
     const std::vector<std::int8_t> warm_start_;
@@ -288,10 +302,11 @@ public:
         RunControl control(options,
                            options.time_limit ? std::nullopt : options_.default_work_limit);
         std::optional<Solution> given;
+        Value bound = 0;
         try {
-            return ExactSearch(problem, options, options_, control, given).run();
+            return ExactSearch(problem, options, options_, control, given, bound).run();
         } catch (const StoppedInPass&) {
-            return finish(problem, name(), control, std::move(given), sum_of_gains(problem));
+            return finish(problem, name(), control, std::move(given), bound);
         }
     }
 
