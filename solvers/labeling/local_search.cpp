@@ -32,7 +32,7 @@ constexpr double kColdHigh = 0.25;
 constexpr std::array<double, 4> kReheats{1.2, 0.6, 2.4, 0.9};
 constexpr std::int64_t kFirstTicks = 150;                         ///< per label
 constexpr std::int64_t kFirstMost = 3'000'000, kFirstLeast = 25;  ///< where that is much
-constexpr std::int64_t kLargestRegion = 4000;
+constexpr std::int64_t kSmallRegion = 4000, kLargeRegion = 16000, kManyLabels = 50'000;
 constexpr double kLeastHeat = 0.5;
 constexpr std::array<double, 3> kRestartHeats{3.0, 1.5, 1.5};
 constexpr std::int64_t kFirstShare = 4;  ///< of the work, at most
@@ -209,9 +209,11 @@ private:
                        kind.ticks);
     }
 
-    /// Several regions a lane where there are many labels: a small one stays in the cache.
+    /// Several regions a lane where there are many labels: a small one stays in the cache. Where
+    /// there are very many, chains are too short for what regions lose at their borders.
     void anneal_regions(const Chain& pattern, std::int64_t ticks) {
-        const auto each = static_cast<std::int64_t>(lanes_.size()) * kLargestRegion;
+        const std::int64_t largest = size_ > kManyLabels ? kLargeRegion : kSmallRegion;
+        const auto each = static_cast<std::int64_t>(lanes_.size()) * largest;
         const auto regions = splitter_.split(
             random_, lanes_.size() * static_cast<std::size_t>((size_ + each - 1) / each));
         control_.spend(splitter_.take_work() / 16);
