@@ -181,7 +181,7 @@ int execute_one(const ExecuteArguments& arguments) {
         throw labeling::InputError(arguments.folder.string() + ": no run " + arguments.key);
     }
     ExecuteOptions options = arguments.options;
-    options.stop = labeling::stop_at_signals();
+    options.stop = labeling::stop_at_signals(true);
     const auto record = execute(plan, *job, arguments.folder, options);
     if (!record) return kNotFinished;
     // The first one counts. A second one comes from a process that was given up and made again.

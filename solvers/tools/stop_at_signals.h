@@ -9,20 +9,22 @@
 
 namespace labeling {
 
-/// The first SIGINT or SIGTERM requests a stop; the next one ends the program. Call once, before
-/// any other thread starts: threads inherit the mask. A thread of its own waits, since no signal
-/// handler may request a stop.
-inline std::stop_token stop_at_signals() {
+/// The first SIGINT or SIGTERM requests a stop; the next one ends the program, unless it is one
+/// that has to clean up: a signal that is told by the kernel when a parent dies comes once for each
+/// of the parent's threads. Call once, before any other thread starts: threads inherit the mask. A
+/// thread of its own waits, since no signal handler may request a stop.
+inline std::stop_token stop_at_signals(bool has_to_clean_up = false) {
     static std::stop_source source;
     sigset_t signals;
     sigemptyset(&signals);
     sigaddset(&signals, SIGINT);
     sigaddset(&signals, SIGTERM);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    std::thread([signals] {
+    std::thread([signals, has_to_clean_up] {
         int signal = 0;
         if (sigwait(&signals, &signal) != 0) return;
         source.request_stop();
+        while (has_to_clean_up) sigwait(&signals, &signal);
         if (sigwait(&signals, &signal) == 0) std::_Exit(128 + signal);
     }).detach();
     return source.get_token();

@@ -224,7 +224,7 @@ std::optional<Record> execute(const Plan& plan, const Job& job, const fs::path& 
     double load[1] = {0};
     if (::getloadavg(load, 1) == 1) record.measures.load = load[0];
 
-    const fs::path home = fs::absolute(folder);
+    const fs::path home = fs::canonical(folder);  // one name, by which what is left is known
     if (planned.is_study) require_planned_mesh(home / planned.file, planned.hash);
     const RunFolder scratch(home / "scratch" / (job.key + own_mark()));
     ::setenv("TMPDIR", scratch.path().c_str(), 1);

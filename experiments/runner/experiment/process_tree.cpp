@@ -108,7 +108,7 @@ int kill_descendants() {
 }
 
 void kill_processes_of(const std::filesystem::path& folder) {
-    const std::string prefix = std::filesystem::absolute(folder).string() + "/";
+    const std::string prefix = std::filesystem::weakly_canonical(folder).string() + "/";
     for (int round = 0; round < kMostRounds; ++round) {
         bool is_clear = true;
         for (const Process& p : all_processes()) {
