@@ -44,6 +44,7 @@ Command add_solve_command(CLI::App& program);
 Command add_verify_command(CLI::App& program);
 Command add_convert_command(CLI::App& program);
 Command add_explain_command(CLI::App& program);
+Command add_draw_command(CLI::App& program);
 Command add_model_command(CLI::App& program);
 
 }  // namespace fcn::app

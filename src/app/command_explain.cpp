@@ -10,6 +10,7 @@
 #include "app/inputs.h"
 #include "app/json_summary.h"
 #include "geometry/errors.h"
+#include "network/network_io.h"
 
 namespace fcn::app {
 namespace {

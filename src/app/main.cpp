@@ -56,7 +56,8 @@ int parse_and_run(int argc, char** argv) {
         add_run_command(program),     add_detect_command(program),  add_adapt_command(program),
         add_check_command(program),   add_remesh_command(program),  add_measure_command(program),
         add_compare_command(program), add_solve_command(program),   add_verify_command(program),
-        add_convert_command(program), add_explain_command(program), add_model_command(program)};
+        add_convert_command(program), add_explain_command(program), add_model_command(program),
+        add_draw_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& request) {  // --help and --version

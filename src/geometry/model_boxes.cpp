@@ -69,6 +69,12 @@ ModelSurface make_ribs(const ModelOptions& options) {
     });
 }
 
+ModelSurface make_step(const ModelOptions& options) {
+    return boundary_of_cells({{{0, 0.5, 1}, {0, 0.5}, {0, 0.4, 0.4 + options.spacing}}},
+                             options.resolution,
+                             [](const Vec3& p) { return p.z() < 0.4 || p.x() > 0.5; });
+}
+
 ModelSurface make_steps(const ModelOptions& options) {
     const double spacing = options.spacing;
     const std::vector<double> along = alternating(0, spacing, spacing, options.count);

@@ -24,6 +24,8 @@ constexpr Model kModels[] = {
      make_skyscraper, 2},
     {"ribs", "plate with `count` sharp ribs, `spacing` from rib to rib", make_ribs, 1},
     {"steps", "stair of `count` steps, `spacing` high and deep", make_steps, 1},
+    {"step", "block with a step `spacing` high across it: two creases at that distance", make_step,
+     0},
     {"gear", "gear wheel with bore and `count` teeth, `spacing` wide at the tip and high",
      make_gear, 3},
     {"octaflower", "lens-shaped flower of `count` petals: sharp rim, creases that fade inwards",

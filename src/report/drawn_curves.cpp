@@ -4,6 +4,7 @@
 #include "report/drawn_curves.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace fcn {
@@ -39,6 +40,17 @@ Polyline chord_on_surface(const Vec3& from, const Vec3& to, const SurfaceQueries
         points.push_back(closest.distance <= reach ? closest.position : chord);
     }
     return points;
+}
+
+Polyline laid_on_surface(const Polyline& points, const SurfaceQueries& surface, double finest) {
+    Polyline result;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double length = (points[i] - points[i - 1]).norm();
+        const int pieces = static_cast<int>(std::clamp(std::ceil(length / finest), 1.0, 1000.0));
+        const Polyline laid = chord_on_surface(points[i - 1], points[i], surface, pieces);
+        result.insert(result.end(), laid.begin() + (i > 1 ? 1 : 0), laid.end());
+    }
+    return result;
 }
 
 Polyline simplified(const Polyline& points, double tolerance) {

@@ -19,6 +19,9 @@ Polyline polyline_of(const NetworkArc& arc);
 Polyline chord_on_surface(const Vec3& from, const Vec3& to, const SurfaceQueries& surface,
                           int pieces);
 
+/// A polyline as it lies on the surface, in pieces of at most `finest`.
+Polyline laid_on_surface(const Polyline& points, const SurfaceQueries& surface, double finest);
+
 /// The polyline without points that lie within `tolerance` of what is left; ends stay.
 Polyline simplified(const Polyline& points, double tolerance);
 

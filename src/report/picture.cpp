@@ -195,10 +195,11 @@ void check_options(const PictureOptions& options) {
 std::string render_png(const Mesh& mesh, const std::vector<PictureLayer>& layers,
                        const PictureOptions& options) {
     check_options(options);
+    const Mesh& framed = options.seen_as ? *options.seen_as : mesh;
     const CameraFrame camera =
-        options.view.isZero(0) ? choose_camera(mesh) : make_camera(options.view, options.up);
+        options.view.isZero(0) ? choose_camera(framed) : make_camera(options.view, options.up);
     const int width = options.width * kSupersampling, height = options.height * kSupersampling;
-    const Projection projection(camera, mesh, width, height);
+    const Projection projection(camera, framed, width, height);
     const Raster raster = rasterize(mesh, projection, width, height, options.is_drawing_wireframe);
     std::vector<Rgb> image = shade(raster, options, projection.pixels_per_unit());
     const double bias = mesh.n_vertices() == 0 ? 0 : kDepthBias * bounding_box(mesh).diagonal();

@@ -24,6 +24,8 @@ struct PictureOptions {
     /// Camera direction (from the mesh to the eye) and up; zero = chosen from the mesh.
     Vec3 view = Vec3::Zero();
     Vec3 up = Vec3::Zero();
+    /// Mesh that is framed, and whose view is chosen, instead of the drawn one; not owned.
+    const Mesh* seen_as = nullptr;
     bool is_drawing_wireframe = false;
     Color surface{214, 219, 226};
 };
