@@ -166,6 +166,7 @@ private:
     bool iterate(IterationReport& iteration) {
         timed(iteration, "resample", [&] { resample(iteration.iteration); });
         NetworkGraph graph = make_graph(network());
+        if (options_.is_recording_steps) record_resampled(graph.graph);
         ConflictResult conflicts;
         timed(iteration, "conflicts", [&] {
             conflicts = detect_conflicts(graph.graph, scale_, conflict_options_);
@@ -182,11 +183,30 @@ private:
                                                             : AdaptationStatus::SolverFailed;
             return false;
         }
+        if (options_.is_recording_steps) record_labeled(graph.graph, *kept);
         bool has_changed =
             timed(iteration, "collapse", [&] { return apply(iteration, graph, conflicts, *kept); });
         if (!has_changed && is_best()) has_changed = drop_idle_short_arcs(iteration);
         if (!has_changed) report_.status = AdaptationStatus::Converged;
         return has_changed;
+    }
+
+    static std::array<Vec3, 2> chord_of(const SegmentGraph& graph, std::size_t segment) {
+        const auto& nodes = graph.segments[segment].nodes;
+        return {graph.nodes[nodes[0]].position, graph.nodes[nodes[1]].position};
+    }
+
+    void record_resampled(const SegmentGraph& graph) {
+        AdaptationStep& step = report_.steps.emplace_back();
+        for (std::size_t s = 0; s < graph.segments.size(); ++s)
+            (graph.segments[s].is_short ? step.brief : step.resampled)
+                .push_back(chord_of(graph, s));
+    }
+
+    void record_labeled(const SegmentGraph& graph, const std::vector<bool>& kept) {
+        AdaptationStep& step = report_.steps.back();
+        for (std::size_t s = 0; s < kept.size(); ++s)
+            (kept[s] ? step.kept : step.dropped).push_back(chord_of(graph, s));
     }
 
     void resample(int iteration) {

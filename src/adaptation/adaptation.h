@@ -34,6 +34,7 @@ struct AdaptationOptions {
     double ortho_radius = 2;             ///< reach of a_par,perp in rmax
     int max_iterations = 50;             ///< safety net with its own status
     bool is_recording_problems = false;  ///< keep every iteration's problem in the report
+    bool is_recording_steps = false;     ///< keep what every iteration looks like in the report
     int threads = 1;
     labeling::SolveOptions solve;                    ///< limits, seed
     std::shared_ptr<const labeling::Solver> solver;  ///< required
@@ -81,6 +82,13 @@ struct ConflictPlace {
     std::array<bool, 2> is_kept{false, false};
 };
 
+/// What one iteration looks like, as the ends of straight segments (the paper's Figure 5).
+struct AdaptationStep {
+    using Chords = std::vector<std::array<Vec3, 2>>;
+    Chords resampled, brief;  ///< before anything is decided; brief: arcs too short for the scale
+    Chords kept, dropped;     ///< after labeling
+};
+
 struct AdaptationReport {
     AdaptationStatus status = AdaptationStatus::Converged;
     std::vector<IterationReport> iterations;
@@ -89,7 +97,8 @@ struct AdaptationReport {
     std::vector<labeling::Solution> solutions;
     /// Of the first iteration when is_recording_problems; every k-th if there are too many.
     std::vector<ConflictPlace> conflict_places;
-    bool is_optimal = false;  ///< every iteration proven optimal
+    std::vector<AdaptationStep> steps;  ///< by iteration when is_recording_steps
+    bool is_optimal = false;            ///< every iteration proven optimal
     /// Sharpness-weighted share of the initial feature length within rmin of the final network.
     double coverage = 0;
     double initial_length = 0, final_length = 0;

@@ -25,6 +25,7 @@ struct AdaptArguments {
     std::string input;
     std::string output;
     std::string problem_folder;
+    std::string step_folder;
 };
 
 Json summary_json(const AdaptationOptions& options, const FeatureCurveNetwork& initial,
@@ -70,6 +71,7 @@ int adapt(const AdaptArguments& arguments) {
     for (const std::string& message :
          require_pins_hold(detection.network, mesh, options, arguments.pins))
         print_warning(arguments.common, message);
+    options.is_recording_steps = !arguments.step_folder.empty();
     options.is_recording_problems = !arguments.problem_folder.empty();
 
     ProgressBar bar(!arguments.common.is_quiet);
@@ -82,6 +84,9 @@ int adapt(const AdaptArguments& arguments) {
     save_network(arguments.output, result.network, &mesh);
     std::vector<std::string> files = write_problems(result.report, arguments.problem_folder);
     files.insert(files.begin(), arguments.output);
+    if (options.is_recording_steps)
+        for (std::string& file : write_steps(result.report, arguments.step_folder))
+            files.push_back(std::move(file));
     if (result.report.status == AdaptationStatus::Interrupted)
         print_note(arguments.common, "interrupted: this is the best network so far");
     if (arguments.output == "-") return exit_code(result);
@@ -113,6 +118,8 @@ Command add_adapt_command(CLI::App& program) {
         ->required();
     parser->add_option("--save-problems", arguments->problem_folder,
                        "Folder for every labeling problem and its solution");
+    parser->add_option("--save-steps", arguments->step_folder,
+                       "Folder for what each iteration looks like, as lines in OBJ files");
     add_scale_arguments(*parser, arguments->scale);
     add_adaptation_arguments(*parser, arguments->adaptation);
     add_detection_arguments(*parser, arguments->detection);

@@ -24,6 +24,32 @@ std::vector<std::string> write_problems(const AdaptationReport& report,
     return files;
 }
 
+std::vector<std::string> write_steps(const AdaptationReport& report,
+                                     const std::filesystem::path& folder) {
+    std::vector<std::string> files;
+    std::filesystem::create_directories(folder);
+    const auto write = [&](std::size_t step, const char* kind,
+                           const AdaptationStep::Chords& chords) {
+        if (chords.empty()) return;
+        std::string text;
+        for (const auto& [from, to] : chords)
+            for (const Vec3& p : {from, to})
+                text += fmt::format("v {:.17g} {:.17g} {:.17g}\n", p.x(), p.y(), p.z());
+        for (std::size_t i = 0; i < chords.size(); ++i)
+            text += fmt::format("l {} {}\n", 2 * i + 1, 2 * i + 2);
+        files.push_back((folder / fmt::format("step_{}_{}.obj", step + 1, kind)).string());
+        write_file_atomically(files.back(), text);
+    };
+    for (std::size_t i = 0; i < report.steps.size(); ++i) {
+        const AdaptationStep& step = report.steps[i];
+        write(i, "resampled", step.resampled);
+        write(i, "short", step.brief);
+        write(i, "kept", step.kept);
+        write(i, "dropped", step.dropped);
+    }
+    return files;
+}
+
 std::vector<std::string> write_scale_files(const MeshRecord& record, const ScaleRecord& scale,
                                            const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);

@@ -12,6 +12,11 @@ namespace fcn::app {
 std::vector<std::string> write_problems(const AdaptationReport& report,
                                         const std::filesystem::path& folder);
 
+/// Writes step_<iteration>_{resampled,short,kept,dropped}.obj for every recorded iteration: lines,
+/// one a segment. What would hold none is not written.
+std::vector<std::string> write_steps(const AdaptationReport& report,
+                                     const std::filesystem::path& folder);
+
 /// Writes what `run` leaves for one scale: initial.fcn.json, adapted.fcn.json, initial.obj,
 /// network.obj, remesh.obj and the problems. Returns the files in that order. Each is written
 /// under a temporary name and renamed.

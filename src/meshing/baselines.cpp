@@ -6,6 +6,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,10 @@ LoadedMesh decimate_by_quadrics(const LoadedMesh& mesh, std::size_t vertex_count
     OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadrics;
     decimater.add(quadrics);
     decimater.module(quadrics).unset_max_err();
+    // Flat parts cost nothing, so that only this keeps them from folding over.
+    OpenMesh::Decimater::ModNormalFlippingT<Mesh>::Handle flipping;
+    decimater.add(flipping);
+    decimater.module(flipping).set_max_normal_deviation(90);
     if (decimater.initialize()) decimater.decimate_to(vertex_count);
     std::vector<Vec3> points(work.n_vertices());
     for (std::size_t v = 0; v < points.size(); ++v)

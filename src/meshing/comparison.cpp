@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "geometry/errors.h"
+#include "geometry/mesh_curves.h"
 #include "meshing/baselines.h"
 
 namespace fcn {
@@ -88,6 +89,7 @@ ComparisonRow run_remesher(const std::string& name, const ComparisonInput& input
         RemeshResult result = make(name, input, vertex_count);
         row.cpu_seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
         row.mesh = std::move(result.mesh);
+        row.mesh.curves = chain_vertex_pairs(result.feature_edges);
         row.broken_segments = result.broken_segments.size();
         row.forced_faces = result.forced_faces.size();
         row.warnings = std::move(result.warnings);

@@ -17,7 +17,7 @@ struct ReportPalette {
     Color kept{0, 100, 176};
     Color dropped{213, 94, 0};
     Color pinned{0, 130, 95};
-    Color brief{0, 158, 190};     ///< short arcs, while a network is adapted
+    Color brief{204, 121, 167};   ///< short arcs, while a network is adapted
     Color single{150, 156, 164};  ///< arcs without symmetric partners
     std::array<Color, 8> orbits{Color{176, 24, 44},  Color{38, 70, 122},  Color{232, 128, 8},
                                 Color{22, 130, 72},  Color{128, 62, 150}, Color{0, 140, 160},
