@@ -35,7 +35,7 @@ struct LinearModel {
     std::vector<ModelRow> rows;
 
     std::int32_t column_count() const { return static_cast<std::int32_t>(objective.size()); }
-    /// b1, b2, ... for labels, y<i>_<j> for bonuses; numbers from 1.
+    /// b1, b2, ... for labels, yI_J for the bonus of I and J; numbers from 1.
     std::string column_name(std::int32_t column) const;
     /// x1.. (conflicts and cliques), y1.. (bonus links), r1.. (rules), by position among all rows.
     std::string row_name(std::size_t row) const;

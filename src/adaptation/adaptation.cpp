@@ -69,10 +69,12 @@ public:
         : initial_(initial),
           options_(with_defaults(options)),
           scale_(make_scale(options.rmin, options.ratio, options.target)),
-          queries_(mesh.mesh),
+          own_surface_(options.surface ? nullptr : std::make_unique<AdaptationSurface>(mesh.mesh)),
+          surface_(options.surface ? *options.surface : *own_surface_),
+          queries_(surface_.queries),
           thin_wall_(mesh.mesh, queries_, kThinWallDistance * options.rmin, kTouch * options.rmin),
           solver_(*options.solver, solve_options(options)),
-          state_(make_initial_state(mesh, queries_, initial, scale_, options_)),
+          state_(make_initial_state(mesh, surface_, initial, scale_, options_)),
           dropped_(state_.dropped) {
         dense_initial_ = state_.network.arcs;
         conflict_options_.mode = options_.mode;
@@ -464,7 +466,9 @@ private:
     const FeatureCurveNetwork& initial_;
     AdaptationOptions options_;
     ScaleInterval scale_;
-    SurfaceQueries queries_;
+    std::unique_ptr<AdaptationSurface> own_surface_;
+    const AdaptationSurface& surface_;
+    const SurfaceQueries& queries_;
     ThinWallTest thin_wall_;
     IncrementalSolver solver_;
     InitialState state_;

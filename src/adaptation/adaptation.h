@@ -18,6 +18,8 @@ enum class AdaptationMode { Paper, Best };
 enum class LabelUnit { Segment, Curve };
 enum class ThinWalls { Exempt, Conflict };
 
+struct AdaptationSurface;
+
 /// Every constant of the paper and of DESIGN section 4.
 struct AdaptationOptions {
     double rmin = 0;     ///< scale, mesh units, > 0
@@ -40,6 +42,7 @@ struct AdaptationOptions {
     std::shared_ptr<const labeling::Solver> solver;  ///< required
     std::function<void(const std::string& phase, double fraction)> progress;
     std::stop_token stop;
+    const AdaptationSurface* surface = nullptr;  ///< of the mesh, made already; not owned
 };
 
 enum class AdaptationStatus {

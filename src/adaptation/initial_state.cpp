@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "adaptation/surface_sharpness.h"
 #include "geometry/curvature.h"
 
 namespace fcn {
@@ -64,13 +63,13 @@ std::vector<int> measured_samples(const std::vector<Vec3>& points, double spacin
 
 class Measurer {
 public:
-    Measurer(const LoadedMesh& mesh, const SurfaceQueries& queries, const ScaleInterval& scale,
+    Measurer(const LoadedMesh& mesh, const AdaptationSurface& surface, const ScaleInterval& scale,
              const AdaptationOptions& options)
         : mesh_(mesh.mesh),
-          queries_(queries),
+          queries_(surface.queries),
           scale_(scale),
           on_surface_(kOnSurface * bounding_box(mesh.mesh).diagonal()),
-          sharpness_(mesh.mesh) {
+          sharpness_(surface.sharpness) {
         if (options.mode == AdaptationMode::Paper) {
             curvatures_ = principal_curvatures(mesh.mesh, {.threads = options.threads});
         }
@@ -115,7 +114,7 @@ private:
     const SurfaceQueries& queries_;
     const ScaleInterval& scale_;
     double on_surface_;
-    SurfaceSharpness sharpness_;
+    const SurfaceSharpness& sharpness_;
     PrincipalCurvatures curvatures_;
 };
 
@@ -177,7 +176,7 @@ double weighted_median(std::vector<std::pair<double, double>> values) {
 
 }  // namespace
 
-InitialState make_initial_state(const LoadedMesh& mesh, const SurfaceQueries& queries,
+InitialState make_initial_state(const LoadedMesh& mesh, const AdaptationSurface& surface,
                                 const FeatureCurveNetwork& initial, const ScaleInterval& scale,
                                 const AdaptationOptions& options) {
     InitialState state;
@@ -187,7 +186,7 @@ InitialState make_initial_state(const LoadedMesh& mesh, const SurfaceQueries& qu
     const int count = static_cast<int>(initial.arcs.size());
     state.network.arcs.resize(count);
     std::vector<ArcMeasures> measures(count);
-    const Measurer measurer(mesh, queries, scale, options);
+    const Measurer measurer(mesh, surface, scale, options);
     tbb::task_arena arena(std::max(1, options.threads));
     arena.execute([&] {
         tbb::parallel_for(0, count, [&](int a) {

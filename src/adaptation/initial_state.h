@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "adaptation/adaptation.h"
+#include "adaptation/adaptation_surface.h"
 #include "adaptation/coverage.h"
 #include "adaptation/crumbs.h"
 #include "adaptation/working_network.h"
-#include "geometry/surface_queries.h"
 
 namespace fcn {
 
@@ -33,7 +33,7 @@ struct InitialState {
 /// Dense sampling, sharpness and origins of the initial network at a scale. Best mode: sharpness =
 /// turning of the surface within rmin / 2, divided by its length-weighted median (at least 0.05
 /// radians); paper mode: |kappa_max| of the one-ring shape operator.
-InitialState make_initial_state(const LoadedMesh& mesh, const SurfaceQueries& queries,
+InitialState make_initial_state(const LoadedMesh& mesh, const AdaptationSurface& surface,
                                 const FeatureCurveNetwork& initial, const ScaleInterval& scale,
                                 const AdaptationOptions& options);
 

@@ -96,18 +96,16 @@ std::vector<Row> solver_rows(const MeshRecord& mesh, bool has_timings) {
 
 }  // namespace
 
-std::string closing_table(const std::vector<MeshRecord>& meshes, bool has_timings) {
-    std::string text;
-    for (const MeshRecord& mesh : meshes) {
-        text += fmt::format("\n{}: {} triangles, {} feature arcs (method {})\n", mesh.mesh.name,
-                            mesh.mesh.mesh.n_faces(), mesh.initial.arcs.size(), mesh.method);
-        if (mesh.scales.empty()) continue;
-        text += aligned(triangle_rows(mesh), 3);
-        const std::vector<Row> solvers = solver_rows(mesh, has_timings);
-        if (solvers.size() > 1)
-            text += "\n  first labeling problem of each scale, every solver from scratch:\n" +
-                    aligned(solvers, 3);
-    }
+std::string closing_table(const MeshRecord& mesh, bool has_timings) {
+    std::string text =
+        fmt::format("\n{}: {} triangles, {} feature arcs (method {})\n", mesh.mesh.name,
+                    mesh.mesh.mesh.n_faces(), mesh.initial.arcs.size(), mesh.method);
+    if (mesh.scales.empty()) return text;
+    text += aligned(triangle_rows(mesh), 3);
+    const std::vector<Row> solvers = solver_rows(mesh, has_timings);
+    if (solvers.size() > 1)
+        text += "\n  first labeling problem of each scale, every solver from scratch:\n" +
+                aligned(solvers, 3);
     return text;
 }
 

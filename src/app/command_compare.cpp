@@ -34,29 +34,6 @@ std::vector<std::string> chosen_ways(const CompareArguments& arguments) {
     return arguments.ways.empty() ? remesher_names() : split_list(arguments.ways, "--ways");
 }
 
-Json comparison_json(const ComparisonRow& row, double edge_length, bool has_timings) {
-    Json json{{"way", row.name}};
-    if (!row.failure.empty()) {
-        json["failure"] = row.failure;
-        return json;
-    }
-    json["triangles"] = quality_json(row.quality, edge_length);
-    json["edges"] = {
-        {"below", row.edges.below}, {"inside", row.edges.inside}, {"above", row.edges.above}};
-    json["distance"] = {{"hausdorff", row.distance.hausdorff},
-                        {"mean_forward", row.distance.mean_forward},
-                        {"mean_backward", row.distance.mean_backward},
-                        {"samples", row.distance.samples},
-                        {"reference_diagonal", row.distance.diagonal}};
-    json["normals"] = normals_json(row.normals);
-    json["features"] = feature_deviation_json(row.features);
-    json["broken_segments"] = row.broken_segments;
-    json["forced_faces"] = row.forced_faces;
-    json["warnings"] = row.warnings;
-    if (has_timings) json["cpu_seconds"] = row.cpu_seconds;
-    return json;
-}
-
 void print_comparison_row(const ComparisonRow& row) {
     if (!row.failure.empty()) {
         fmt::print("{:<17} failed: {}\n", row.name, row.failure);

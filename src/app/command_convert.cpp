@@ -8,7 +8,10 @@
 #include "app/inputs.h"
 #include "app/json_summary.h"
 #include "app/outputs.h"
+#include "geometry/errors.h"
 #include "labeling/formats.h"
+#include "network/mesh_edges.h"
+#include "network/written_network.h"
 
 namespace fcn::app {
 namespace {
@@ -58,10 +61,33 @@ Json convert_problem(const ConvertArguments& arguments) {
             {"rules", problem.rule_count()}};
 }
 
+/// The curves that a file holds beside its mesh. Those that do not run along the mesh's edges are
+/// left out, which a warning says.
+std::vector<std::vector<int>> curves_beside(const LoadedMesh& mesh,
+                                            const ConvertArguments& arguments) {
+    // How reading tells that there is none, in every format.
+    const std::string none = "no curves in it";
+    if (arguments.input == "-" || !has_network_extension(arguments.input)) return {};
+    try {
+        const FeatureCurveNetwork network = load_network(arguments.input, &mesh.mesh);
+        return MeshEdgePaths(mesh.mesh, arguments.input)
+            .all(polylines_to_write(network, NetworkDetail::DenseArcs));
+    } catch (const fcn::InputError& error) {
+        const std::string message = error.what();
+        if (!message.ends_with(none))
+            print_warning(arguments.common, "curves are left out: " + message);
+        return {};
+    }
+}
+
 Json convert_mesh(const ConvertArguments& arguments) {
-    const LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
+    LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
+    mesh.curves = curves_beside(mesh, arguments);
     save_mesh(arguments.output, mesh);
-    return {{"kind", "mesh"}, {"vertices", mesh.mesh.n_vertices()}, {"faces", mesh.mesh.n_faces()}};
+    return {{"kind", "mesh"},
+            {"vertices", mesh.mesh.n_vertices()},
+            {"faces", mesh.mesh.n_faces()},
+            {"curves", mesh.curves.size()}};
 }
 
 Json convert_network(const ConvertArguments& arguments) {
@@ -87,7 +113,7 @@ Json convert_network(const ConvertArguments& arguments) {
 int convert(const ConvertArguments& arguments) {
     const std::string kind = kind_by_name(arguments);
     prepare_output(arguments.output,
-                   kind == "mesh"      ? OutputKind::Mesh
+                   kind == "mesh"      ? OutputKind::MeshWithCurves
                    : kind == "network" ? OutputKind::Network
                                        : OutputKind::Other,
                    arguments.common);

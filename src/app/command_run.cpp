@@ -1,10 +1,13 @@
 #include <fmt/core.h>
+#include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <set>
 
 #include "app/adaptation_arguments.h"
@@ -46,11 +49,10 @@ struct Run {
     PipelineOptions options;
     std::vector<ScaleRequest> scales;
     std::filesystem::path folder;
-    std::vector<MeshRecord> records;
+    std::optional<Report> report;
     Json meshes = Json::array();
+    std::string closing_text;
     std::set<std::string> used_names;
-    std::string viewer_script;
-    std::vector<std::string> baselines;
     int code = kDone;
 };
 
@@ -70,6 +72,12 @@ std::vector<ScaleRequest> scale_requests(const RunArguments& arguments) {
     return requests;
 }
 
+std::string folder_of(const std::vector<ScaleRequest>& scales, const std::string& label) {
+    for (const ScaleRequest& scale : scales)
+        if (scale.label() == label) return scale.folder();
+    return label;
+}
+
 std::vector<std::string> compared_solvers(const std::string& list) {
     if (list == "none") return {};
     std::vector<std::string> names = split_list(list, "--solvers");
@@ -77,7 +85,7 @@ std::vector<std::string> compared_solvers(const std::string& list) {
     return names;
 }
 
-Run prepare(const RunArguments& arguments) {
+Run prepare(const RunArguments& arguments, std::size_t mesh_count) {
     Run run;
     run.scales = scale_requests(arguments);
     run.folder = arguments.output;
@@ -93,9 +101,13 @@ Run prepare(const RunArguments& arguments) {
     options.comparison = arguments.comparison.solve_options(arguments.common);
     options.is_remeshing = !arguments.is_without_remesh;
     if (arguments.baselines != "none")
-        run.baselines = split_list(arguments.baselines, "--baselines");
-    check_baselines(run.baselines);
-    if (!arguments.is_without_viewer) run.viewer_script = find_viewer_script();
+        options.baselines = split_list(arguments.baselines, "--baselines");
+    check_baselines(options.baselines);
+    ReportOptions report;
+    report.command = arguments.command_line;
+    report.has_timings = !arguments.common.is_timeless;
+    if (!arguments.is_without_viewer) report.viewer_script = find_viewer_script();
+    run.report.emplace(std::move(report), mesh_count);
     return run;
 }
 
@@ -121,19 +133,25 @@ Json scale_json(const ScaleRecord& scale, const MeshRecord& record, const Pipeli
         scale.has_remesh ? quality_json(scale.remesh_quality, edge_length) : Json(nullptr);
     json["remesh_on_initial"] =
         scale.has_initial_remesh ? quality_json(scale.initial_quality, edge_length) : Json(nullptr);
+    json["ways"] = Json::array();
+    if (scale.has_remesh)
+        json["ways"].push_back(comparison_json(scale.remesh_row, edge_length, false));
+    for (const ComparedMesh& compared : scale.compared)
+        json["ways"].push_back(comparison_json(compared.row, edge_length, false));
     json["solvers"] = solver_comparisons_json(scale.solvers, has_timings);
     json["files"] = files;
     return json;
 }
 
-void write_report_so_far(const Run& run, const RunArguments& arguments) {
-    ReportOptions options;
-    options.command = arguments.command_line;
-    options.has_timings = !arguments.common.is_timeless;
-    options.viewer_script = run.viewer_script;
-    write_report(run.folder / "report.html", run.records, options);
+std::string report_path(const Run& run) { return (run.folder / "report.html").string(); }
+
+Json summary_so_far(const Run& run) {
+    return {
+        {"interrupted", is_interrupted()}, {"report", report_path(run)}, {"meshes", run.meshes}};
 }
 
+/// The networks and meshes of each scale are on disk when it is done, the report and the summary
+/// when its mesh is: a killed run loses what was under way.
 void run_mesh(const std::string& path, Run& run, const RunArguments& arguments) {
     ProgressBar bar(!arguments.common.is_quiet);
     bar.show(path + ": reading, detecting features", 0);
@@ -142,33 +160,37 @@ void run_mesh(const std::string& path, Run& run, const RunArguments& arguments) 
     for (const std::string& message : record.messages)
         print_note(arguments.common, fmt::format("{}: {}", path, message));
     const std::string name = unused_name(record.mesh.name, run.used_names);
+    std::map<std::string, std::vector<std::string>> files;  // by scale
+    std::mutex files_lock;
+    record.scales =
+        process_scales(record, run.scales, run.options, bar, [&](const ScaleRecord& scale) {
+            std::vector<std::string> written = write_scale_files(
+                record, scale, run.folder / name / folder_of(run.scales, scale.label));
+            const std::lock_guard lock(files_lock);
+            files[scale.label] = std::move(written);
+        });
+    bar.clear();
     Json json{{"mesh", mesh_json(record.mesh)},
               {"method", record.method},
               {"network", network_json(record.initial)},
               {"messages", record.messages},
               {"scales", Json::array()}};
-    for (const ScaleRequest& request : run.scales) {
-        if (is_interrupted()) break;
-        ScaleRecord scale = process_scale(record, request, run.options, bar);
-        if (scale.has_remesh && !is_interrupted())
-            add_baselines(scale, record, run.options.adaptation.ratio, run.baselines);
-        const std::vector<std::string> files =
-            write_scale_files(record, scale, run.folder / name / request.folder());
-        bar.clear();
+    for (const ScaleRecord& scale : record.scales) {
         for (const std::string& warning : scale.adaptation.report.warnings)
             print_warning(arguments.common, fmt::format("{} {}: {}", name, scale.label, warning));
         if (scale.adaptation.report.status == AdaptationStatus::SolverFailed) run.code = kNoResult;
-        json["scales"].push_back(scale_json(scale, record, run.options, files));
-        record.scales.push_back(std::move(scale));
+        json["scales"].push_back(scale_json(scale, record, run.options, files[scale.label]));
     }
-    run.records.push_back(std::move(record));
+    bar.show(name + ": report", 0.95);
+    run.report->add(record);
     run.meshes.push_back(std::move(json));
-    write_report_so_far(run, arguments);
+    run.closing_text += closing_table(record, !arguments.common.is_timeless);
+    save_text(report_path(run), run.report->html());
+    save_text((run.folder / "summary.json").string(), summary_so_far(run).dump(2) + "\n");
 }
 
 /// A bad mesh among several does not stop the others; alone it does.
-void run_all(Run& run, const RunArguments& arguments) {
-    const std::vector<std::string> paths = expand_mesh_inputs(arguments.inputs);
+void run_all(const std::vector<std::string>& paths, Run& run, const RunArguments& arguments) {
     for (const std::string& path : paths) {
         if (is_interrupted()) break;
         try {
@@ -183,16 +205,13 @@ void run_all(Run& run, const RunArguments& arguments) {
 }
 
 int finish(const Run& run, const RunArguments& arguments) {
-    if (run.records.empty()) return is_interrupted() ? kNoResult : run.code;
-    const std::string report = (run.folder / "report.html").string();
-    const Json summary{
-        {"interrupted", is_interrupted()}, {"report", report}, {"meshes", run.meshes}};
+    if (run.meshes.empty()) return is_interrupted() ? kNoResult : run.code;
+    const Json summary = summary_so_far(run);
     save_text((run.folder / "summary.json").string(), summary.dump(2) + "\n");
     if (arguments.common.is_json)
         print_json(summary);
     else
-        fmt::print("{}\nreport: {}\n", closing_table(run.records, !arguments.common.is_timeless),
-                   report);
+        fmt::print("{}\nreport: {}\n", run.closing_text, report_path(run));
     if (is_interrupted())
         print_note(arguments.common,
                    "interrupted: what was finished has been written, the last network is the best "
@@ -201,8 +220,12 @@ int finish(const Run& run, const RunArguments& arguments) {
 }
 
 int run_command(const RunArguments& arguments) {
-    Run run = prepare(arguments);
-    run_all(run, arguments);
+    // Scales run beside each other, and each on several threads: together no more than asked for.
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(arguments.common.thread_count()));
+    const std::vector<std::string> paths = expand_mesh_inputs(arguments.inputs);
+    Run run = prepare(arguments, paths.size());
+    run_all(paths, run, arguments);
     return finish(run, arguments);
 }
 
@@ -253,10 +276,9 @@ void add_run_arguments(CLI::App& parser, RunArguments& arguments) {
         ->capture_default_str();
     parser.add_flag("--no-remesh", arguments.is_without_remesh, "Do not make triangle meshes");
     parser
-        .add_option(
-            "--baselines", arguments.baselines,
-            "Other ways to a mesh, for the 3D view to set beside: own-plain, curvature-0.8, "
-            "quadrics, filtered, cgal, cgal-constrained, cgal-plain, ...")
+        .add_option("--baselines", arguments.baselines,
+                    "Other ways to a mesh, measured beside the remesh: own-plain, curvature-0.8, "
+                    "quadrics, filtered, cgal, cgal-constrained, cgal-plain, ...")
         ->capture_default_str();
     parser.add_flag("--no-viewer", arguments.is_without_viewer,
                     "A report with pictures only, smaller and without scripts");

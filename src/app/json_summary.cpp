@@ -155,6 +155,29 @@ Json feature_deviation_json(const FeatureDeviation& features) {
             {"samples", features.samples}};
 }
 
+Json comparison_json(const ComparisonRow& row, double edge_length, bool has_timings) {
+    Json json{{"way", row.name}};
+    if (!row.failure.empty()) {
+        json["failure"] = row.failure;
+        return json;
+    }
+    json["triangles"] = quality_json(row.quality, edge_length);
+    json["edges"] = {
+        {"below", row.edges.below}, {"inside", row.edges.inside}, {"above", row.edges.above}};
+    json["distance"] = {{"hausdorff", row.distance.hausdorff},
+                        {"mean_forward", row.distance.mean_forward},
+                        {"mean_backward", row.distance.mean_backward},
+                        {"samples", row.distance.samples},
+                        {"reference_diagonal", row.distance.diagonal}};
+    json["normals"] = normals_json(row.normals);
+    json["features"] = feature_deviation_json(row.features);
+    json["broken_segments"] = row.broken_segments;
+    json["forced_faces"] = row.forced_faces;
+    json["warnings"] = row.warnings;
+    if (has_timings) json["cpu_seconds"] = row.cpu_seconds;
+    return json;
+}
+
 Json solver_comparisons_json(const std::vector<SolverComparison>& solvers, bool has_timings) {
     Json list = Json::array();
     for (const SolverComparison& row : solvers) {

@@ -23,6 +23,8 @@ Json conformity_json(const ConformityReport& report, bool is_detailed);
 Json quality_json(const TriangleQuality& quality, double target = 0);
 Json normals_json(const NormalDeviation& normals);
 Json feature_deviation_json(const FeatureDeviation& features);
+/// One way to a mesh: its name, and its measures or why there is no mesh.
+Json comparison_json(const ComparisonRow& row, double edge_length, bool has_timings);
 Json solver_comparisons_json(const std::vector<SolverComparison>& solvers, bool has_timings);
 Json solve_result_json(const labeling::LabelingProblem& problem,
                        const labeling::SolveResult& result, bool has_timings);

@@ -1,15 +1,18 @@
 #include "app/pipeline.h"
 
 #include <fmt/core.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "app/inputs.h"
 #include "app/interrupt.h"
-#include "geometry/mesh_curves.h"
+#include "app/run_baselines.h"
 #include "labeling/errors.h"
 #include "labeling_mip/mip_solvers.h"
 
@@ -17,6 +20,8 @@ namespace fcn::app {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+/// Faces of the input times scales that are worked on at a time: about 1 KB of memory each.
+constexpr std::size_t kFacesAtOnce = 4'000'000;
 
 SolverComparison comparison_row(const labeling::LabelingProblem& problem,
                                 const labeling::SolveResult& result) {
@@ -28,36 +33,6 @@ SolverComparison comparison_row(const labeling::LabelingProblem& problem,
     row.gap = result.relative_gap().value_or(kUnknown);
     row.seconds = result.seconds;
     return row;
-}
-
-/// The mesh of edge length 1.2 rmin (or as asked) on `network`.
-RemeshResult remesh_on(const FeatureCurveNetwork& network, const MeshRecord& record, double rmin) {
-    RemeshOptions options;
-    options.edge_length = kEdgeLengthFactor * rmin;
-    return remesh_triangles(record.mesh, network, options);
-}
-
-void add_remeshes(ScaleRecord& scale, const MeshRecord& record, const std::string& what,
-                  int threads, ProgressBar& bar) {
-    if (is_interrupted()) return;
-    bar.show(what + ": remeshing on the adapted and on the initial network", 0.9);
-    RemeshResult adapted, initial;
-    tbb::task_arena arena(threads);
-    arena.execute([&] {
-        tbb::parallel_invoke(
-            [&] { adapted = remesh_on(scale.adaptation.network, record, scale.rmin); },
-            [&] { initial = remesh_on(record.initial, record, scale.rmin); });
-    });
-    scale.remesh_quality = measure_triangles(adapted.mesh.mesh);
-    scale.remesh = std::move(adapted.mesh);
-    scale.remesh.curves = chain_vertex_pairs(adapted.feature_edges);
-    scale.has_remesh = true;
-    auto& warnings = scale.adaptation.report.warnings;
-    warnings.insert(warnings.end(), adapted.warnings.begin(), adapted.warnings.end());
-    scale.initial_quality = measure_triangles(initial.mesh.mesh);
-    scale.has_initial_remesh = true;
-    scale.compared.push_back(
-        {"Remesh on the initial network", std::move(initial.mesh.mesh), scale.initial_quality});
 }
 
 }  // namespace
@@ -129,8 +104,18 @@ MeshRecord start_record(const std::string& path, const std::vector<ScaleRequest>
     return record;
 }
 
+SharedSurface::SharedSurface(const Mesh& mesh, int threads)
+    : adaptation(nullptr), reference(nullptr) {
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        tbb::parallel_invoke([&] { adaptation = std::make_unique<AdaptationSurface>(mesh); },
+                             [&] { reference = std::make_unique<ReferenceSurface>(mesh); });
+    });
+}
+
 ScaleRecord process_scale(const MeshRecord& record, const ScaleRequest& scale,
-                          const PipelineOptions& options, ProgressBar& bar) {
+                          const SharedSurface& surface, const PipelineOptions& options,
+                          ProgressBar& bar) {
     ScaleRecord result;
     result.label = scale.label();
     result.rmin = resolve_scale(scale, bounding_box(record.mesh.mesh).diagonal());
@@ -138,6 +123,7 @@ ScaleRecord process_scale(const MeshRecord& record, const ScaleRequest& scale,
     AdaptationOptions adaptation = options.adaptation;
     adaptation.rmin = result.rmin;
     adaptation.is_recording_problems = true;
+    adaptation.surface = surface.adaptation.get();
     result.adaptation = adapt_with_progress(record.mesh, record.initial, adaptation, what, bar);
     result.conformity = check_result(result.adaptation, record.mesh, adaptation);
     const auto& problems = result.adaptation.report.problems;
@@ -145,8 +131,40 @@ ScaleRecord process_scale(const MeshRecord& record, const ScaleRequest& scale,
         bar.show(what + ": solvers side by side", 0.85);
         result.solvers = compare_solvers(problems.front(), "iteration 1", options);
     }
-    if (options.is_remeshing)
-        add_remeshes(result, record, what, options.common.thread_count(), bar);
+    if (options.is_remeshing && !is_interrupted()) {
+        bar.show(what + ": remeshing on the adapted and on the initial network", 0.9);
+        add_remeshes(result, record, *surface.reference, adaptation.ratio, options.baselines,
+                     options.common.thread_count());
+    }
+    return result;
+}
+
+std::vector<ScaleRecord> process_scales(const MeshRecord& record,
+                                        const std::vector<ScaleRequest>& scales,
+                                        const PipelineOptions& options, ProgressBar& bar,
+                                        const std::function<void(const ScaleRecord&)>& finished) {
+    const int threads = options.common.thread_count();
+    const SharedSurface surface(record.mesh.mesh, threads);
+    const std::size_t faces = std::max<std::size_t>(1, record.mesh.mesh.n_faces());
+    const auto at_once = static_cast<int>(
+        std::clamp<std::size_t>(kFacesAtOnce / faces, 1, static_cast<std::size_t>(threads)));
+    std::vector<std::optional<ScaleRecord>> done(scales.size());
+    tbb::task_arena arena(at_once);
+    arena.execute([&] {
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, scales.size(), 1),
+            [&](const tbb::blocked_range<std::size_t>& range) {
+                for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                    if (is_interrupted()) continue;
+                    done[i] = process_scale(record, scales[i], surface, options, bar);
+                    finished(*done[i]);
+                }
+            },
+            tbb::simple_partitioner());
+    });
+    std::vector<ScaleRecord> result;
+    for (std::optional<ScaleRecord>& scale : done)
+        if (scale) result.push_back(std::move(*scale));
     return result;
 }
 

@@ -10,9 +10,10 @@ namespace fcn::app {
 /// Throws UsageError for a name that remesher_names() does not list.
 void check_baselines(const std::vector<std::string>& names);
 
-/// Other ways to a mesh of this scale, for the 3D view to set beside the remesh; a way that fails
-/// becomes a warning of the record.
-void add_baselines(ScaleRecord& scale, const MeshRecord& record, double ratio,
-                   const std::vector<std::string>& names);
+/// The triangle meshes of a scale, each measured: on the adapted network, on the initial one beside
+/// it on `threads` threads, and by the ways of these names. A way that fails becomes a warning of
+/// the record. After Ctrl-C those that are left are not made.
+void add_remeshes(ScaleRecord& scale, const MeshRecord& record, const ReferenceSurface& reference,
+                  double ratio, const std::vector<std::string>& names, int threads);
 
 }  // namespace fcn::app

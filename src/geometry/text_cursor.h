@@ -8,7 +8,7 @@
 namespace fcn {
 
 /// Walks through a text in memory token by token and knows the line it is on; every failure is an
-/// InputError "<source>:<line>: <what>". The text must outlive it. Line ends: \n, \r\n or \r.
+/// InputError "source:line: what". The text must outlive it. Line ends: of Unix, DOS or old Macs.
 class TextCursor {
 public:
     /// From `comment` (0 = none) to the end of the line is skipped.

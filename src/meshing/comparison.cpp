@@ -4,11 +4,13 @@
 
 #include <ctime>
 #include <exception>
+#include <memory>
 #include <stdexcept>
 
 #include "geometry/errors.h"
 #include "geometry/mesh_curves.h"
 #include "meshing/baselines.h"
+#include "meshing/reference_surface.h"
 
 namespace fcn {
 namespace {
@@ -20,6 +22,7 @@ RemeshOptions options_of(const ComparisonInput& input, bool is_protecting = true
     options.edge_length = kEdgeLengthFactor * input.rmin;
     options.iterations = input.iterations;
     options.is_protecting = is_protecting;
+    options.reference = input.reference;
     return options;
 }
 
@@ -39,7 +42,11 @@ RemeshResult make(const std::string& name, const ComparisonInput& input, std::si
     if (name == "own-plain") return remesh_triangles(mesh, {}, without);
     if (name.starts_with(kCurvature))
         return remesh_triangles(mesh, above_curvature(input.initial, threshold_of(name)), with);
-    if (name == "filtered") return remesh_triangles(filter_detail(mesh, input.rmin), {}, without);
+    if (name == "filtered") {
+        RemeshOptions of_another = without;
+        of_another.reference = nullptr;
+        return remesh_triangles(filter_detail(mesh, input.rmin), {}, of_another);
+    }
     if (name == "quadrics") {
         RemeshResult result;
         result.mesh = decimate_by_quadrics(mesh, vertex_count);
@@ -74,8 +81,11 @@ void measure_row(const ComparisonInput& input, ComparisonRow& row) {
     }
     row.quality = measure_triangles(row.mesh.mesh);
     row.edges = measure_edges(row.mesh.mesh, input.rmin, input.ratio * input.rmin);
-    row.distance = measure_distance(row.mesh.mesh, input.mesh.mesh, input.sample_spacing);
-    row.normals = measure_normals(row.mesh.mesh, input.mesh.mesh, input.sample_spacing);
+    const std::unique_ptr<ReferenceSurface> own =
+        input.reference ? nullptr : std::make_unique<ReferenceSurface>(input.mesh.mesh);
+    const ReferenceSurface& surface = input.reference ? *input.reference : *own;
+    row.distance = measure_distance(row.mesh.mesh, input.mesh.mesh, surface, input.sample_spacing);
+    row.normals = measure_normals(row.mesh.mesh, input.mesh.mesh, surface, input.sample_spacing);
     row.features = measure_features(row.mesh.mesh, input.adapted, input.sample_spacing);
 }
 

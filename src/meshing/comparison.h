@@ -15,7 +15,8 @@ struct ComparisonInput {
     const FeatureCurveNetwork& adapted;  ///< to rmin
     double rmin = 0, ratio = 1.5;
     int iterations = 10;
-    double sample_spacing = 0;  ///< of distances, mesh units, > 0
+    double sample_spacing = 0;                    ///< of distances, mesh units, > 0
+    const ReferenceSurface* reference = nullptr;  ///< of the mesh, made already; not owned
 };
 
 /// One way's mesh, measured against the input and the adapted network.

@@ -262,7 +262,12 @@ EdgeShares measure_edges(const Mesh& mesh, double shortest, double longest) {
 
 NormalDeviation measure_normals(const Mesh& mesh, const Mesh& reference, double sample_spacing) {
     check_distance_input(mesh, reference, sample_spacing);
-    const ReferenceSurface target(reference);
+    return measure_normals(mesh, reference, ReferenceSurface(reference), sample_spacing);
+}
+
+NormalDeviation measure_normals(const Mesh& mesh, const Mesh& reference,
+                                const ReferenceSurface& target, double sample_spacing) {
+    check_distance_input(mesh, reference, sample_spacing);
     const auto sample = [&](std::size_t i, Tally& tally) {
         const FaceHandle face(static_cast<int>(i));
         const auto corner = corners(mesh, face);
@@ -292,8 +297,13 @@ NormalDeviation measure_normals(const Mesh& mesh, const Mesh& reference, double 
 
 MeshDistance measure_distance(const Mesh& mesh, const Mesh& reference, double sample_spacing) {
     check_distance_input(mesh, reference, sample_spacing);
+    return measure_distance(mesh, reference, ReferenceSurface(reference), sample_spacing);
+}
+
+MeshDistance measure_distance(const Mesh& mesh, const Mesh& reference,
+                              const ReferenceSurface& reference_queries, double sample_spacing) {
+    check_distance_input(mesh, reference, sample_spacing);
     const ReferenceSurface mesh_queries(mesh);
-    const ReferenceSurface reference_queries(reference);
     const Tally forward = one_sided(mesh, reference_queries, sample_spacing);
     const Tally backward = one_sided(reference, mesh_queries, sample_spacing);
 

@@ -5,6 +5,8 @@
 
 namespace fcn {
 
+class ReferenceSurface;
+
 /// Triangle quality, angles in degrees (a person reads them).
 struct TriangleQuality {
     std::size_t vertices = 0, faces = 0;
@@ -41,6 +43,9 @@ struct NormalDeviation {
     double mean_degrees = 0, rms_degrees = 0;
 };
 NormalDeviation measure_normals(const Mesh& mesh, const Mesh& reference, double sample_spacing);
+/// `surface` is the reference's.
+NormalDeviation measure_normals(const Mesh& mesh, const Mesh& reference,
+                                const ReferenceSurface& surface, double sample_spacing);
 
 /// Two-sided sampled Hausdorff distance and means, mesh units.
 struct MeshDistance {
@@ -49,5 +54,8 @@ struct MeshDistance {
     double diagonal = 0;  ///< of the reference
 };
 MeshDistance measure_distance(const Mesh& mesh, const Mesh& reference, double sample_spacing);
+/// `surface` is the reference's.
+MeshDistance measure_distance(const Mesh& mesh, const Mesh& reference,
+                              const ReferenceSurface& surface, double sample_spacing);
 
 }  // namespace fcn

@@ -4,6 +4,7 @@
 #include "meshing/remesh.h"
 
 #include <chrono>
+#include <memory>
 
 #include "meshing/curvature_sizing.h"
 #include "meshing/incremental_remeshing.h"
@@ -20,7 +21,9 @@ RemeshResult remesh_triangles(const LoadedMesh& mesh, const FeatureCurveNetwork&
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     RemeshResult result;
-    const ReferenceSurface reference(mesh.mesh);
+    const std::unique_ptr<ReferenceSurface> own =
+        options.reference ? nullptr : std::make_unique<ReferenceSurface>(mesh.mesh);
+    const ReferenceSurface& reference = options.reference ? *options.reference : *own;
     NetworkInMesh work = options.is_protecting
                              ? embed_network(mesh, network, options.edge_length, reference)
                              : NetworkInMesh{working_mesh(mesh), {}, {}};

@@ -12,6 +12,8 @@ namespace fcn {
 /// split or collapse a segment.
 inline constexpr double kEdgeLengthFactor = 1.2;
 
+class ReferenceSurface;
+
 struct RemeshOptions {
     double edge_length = 0;  ///< target L, mesh units, > 0
     int iterations = 10;     ///< in 1 .. 1000
@@ -21,6 +23,7 @@ struct RemeshOptions {
     /// > 0: edges are as long as lets the surface deviate from them by this share of L, within
     /// [L / 1.2, 1.25 L]; 0: one length everywhere.
     double curvature_tolerance = 0;
+    const ReferenceSurface* reference = nullptr;  ///< of the mesh, made already; not owned
 };
 
 struct RemeshStatistics {

@@ -17,7 +17,7 @@ struct XmlEvent {
     std::string_view name;  ///< of a tag
     std::string_view text;  ///< of a text
     std::vector<Attribute> attributes;
-    bool is_empty = false;   ///< <name/>: no end tag follows
+    bool is_empty = false;   ///< no end tag follows
     std::size_t offset = 0;  ///< of the tag or text in the whole
 
     std::string_view attribute(std::string_view name) const;  ///< empty when absent

@@ -27,7 +27,7 @@ public:
     void open(const std::string& tag, const HtmlAttributes& attributes = {});
     void close();
     void text(std::string_view content) { html_ += escape_html(content); }
-    /// <tag attributes>content</tag>
+    /// An element with text in it.
     void element(const std::string& tag, std::string_view content,
                  const HtmlAttributes& attributes = {});
     /// An element without content: img, br, meta.

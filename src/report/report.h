@@ -1,12 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "adaptation/adaptation.h"
 #include "adaptation/conformity.h"
-#include "meshing/measure.h"
+#include "meshing/comparison.h"
 #include "meshing/remesh.h"
 
 namespace fcn {
@@ -24,9 +25,8 @@ struct SolverComparison {
 
 /// Another mesh made for the same edge length, to set beside the remesh.
 struct ComparedMesh {
-    std::string name;  ///< what was done: "on the initial network"
-    Mesh mesh;
-    TriangleQuality quality;
+    std::string name;   ///< what was done: "on the initial network"
+    ComparisonRow row;  ///< the mesh and its measures, or why there is none
 };
 
 /// Everything that was done for one mesh at one scale.
@@ -40,7 +40,8 @@ struct ScaleRecord {
     TriangleQuality remesh_quality;
     TriangleQuality initial_quality;  ///< remeshed with the initial network protected
     bool has_remesh = false, has_initial_remesh = false;
-    std::vector<ComparedMesh> compared;  ///< for the 3D view alone
+    ComparisonRow remesh_row;            ///< measures of the remesh; its mesh is above
+    std::vector<ComparedMesh> compared;  ///< the remesh on the initial network, and baselines
 };
 
 struct MeshRecord {
@@ -58,8 +59,26 @@ struct ReportOptions {
     std::string viewer_script;  ///< the 3D viewer's JavaScript; empty: pictures only
 };
 
-/// One self-contained HTML file (pictures and the viewer's data embedded), written atomically.
-/// Readable offline. Throws InputError when the script cannot stand in a page.
+/// The report while its meshes come in: a mesh is drawn when it is added and can go then.
+class Report {
+public:
+    struct State;
+
+    /// Pictures and 3D views of `mesh_count` meshes share the space of one file.
+    Report(ReportOptions options, std::size_t mesh_count);
+    ~Report();
+    Report(Report&&) noexcept;
+
+    void add(const MeshRecord& record);
+    /// One self-contained HTML file of what was added so far: pictures and the viewer's data are in
+    /// it. Readable offline. Throws InputError when the script cannot stand in a page.
+    std::string html() const;
+
+private:
+    std::unique_ptr<State> state_;
+};
+
+/// All of it at once, written atomically.
 void write_report(const std::filesystem::path& path, const std::vector<MeshRecord>& meshes,
                   const ReportOptions& options = {});
 

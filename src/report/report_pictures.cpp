@@ -10,7 +10,6 @@ namespace {
 
 constexpr int kChordSamples = 12;
 constexpr double kThin = 2, kMedium = 2.4, kThick = 3;  ///< pixels
-constexpr int kWidth = 840, kHeight = 640;
 
 /// Arcs of a network as layers: free ones, and pinned ones on top.
 std::vector<PictureLayer> arc_layers(const FeatureCurveNetwork& network, double width) {
@@ -68,13 +67,17 @@ std::string css_color(const Color& color) {
     return text;
 }
 
-ReportPictures::ReportPictures(const MeshRecord& record)
-    : record_(record), camera_(choose_camera(record.mesh.mesh)), surface_(record.mesh.mesh) {}
+ReportPictures::ReportPictures(const MeshRecord& record, int width, int height)
+    : record_(record),
+      width_(width),
+      height_(height),
+      camera_(choose_camera(record.mesh.mesh)),
+      surface_(record.mesh.mesh) {}
 
 PictureOptions ReportPictures::options(bool is_wireframe) const {
     PictureOptions options;
-    options.width = kWidth;
-    options.height = kHeight;
+    options.width = width_;
+    options.height = height_;
     options.view = camera_.toward;
     options.up = camera_.up;
     options.is_drawing_wireframe = is_wireframe;

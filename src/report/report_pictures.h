@@ -29,7 +29,7 @@ std::string css_color(const Color& color);
 /// The pictures of one mesh, all from the same side.
 class ReportPictures {
 public:
-    explicit ReportPictures(const MeshRecord& record);
+    explicit ReportPictures(const MeshRecord& record, int width = 840, int height = 640);
 
     /// The mesh with its initial network; pinned arcs in their own colour.
     std::string initial() const;
@@ -47,6 +47,7 @@ private:
     PictureOptions options(bool is_wireframe = false) const;
 
     const MeshRecord& record_;
+    int width_ = 0, height_ = 0;  ///< pixels
     CameraFrame camera_;
     SurfaceQueries surface_;
 };

@@ -48,6 +48,7 @@ th, td { padding: 0.28rem 0.7rem; border-bottom: 1px solid var(--line); vertical
 thead th { color: var(--soft); font-weight: 600; vertical-align: bottom;
            border-bottom: 2px solid var(--line); }
 tbody th { font-weight: 400; }
+tbody th:first-child:last-of-type { min-width: 14rem; }
 .text { text-align: left; }
 .number { text-align: right; white-space: nowrap; }
 tr.emphasized > * { font-weight: 600; }

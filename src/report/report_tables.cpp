@@ -24,6 +24,11 @@ Row quality_cells(const TriangleQuality& quality, double edge_length, bool is_kn
             format_number(quality.min_edge / edge_length, 2)};
 }
 
+/// A length in percent of another; a dash if it was not measured.
+std::string share_of(double length, double whole, int digits) {
+    return format_percent(whole > 0 ? length / whole : kUnknown, digits);
+}
+
 std::string conforming_text(const ScaleRecord& scale) {
     if (scale.conformity.is_conforming()) return "yes";
     return "no (" + count_text(scale.conformity.counted) + ")";
@@ -63,33 +68,76 @@ double total_seconds(const IterationReport& iteration) {
 
 }  // namespace
 
-HtmlTable engineer_table(const std::vector<MeshRecord>& meshes) {
+HtmlTable engineer_table() {
     HtmlTable table;
     table.caption = "Triangle meshes made with the initial and with the adapted network protected";
     table.header = {"Mesh",           "Scale",          "Network",
                     "Target edge",    "Triangles",      "Smallest angle",
                     "Under 15\u00b0", "Under 30\u00b0", "Shortest edge / target",
-                    "Coverage",       "Conforming"};
+                    "Hausdorff",      "Coverage",       "Conforming"};
     table.row_headers = 3;
     table.text_columns = 3;
-    for (const MeshRecord& mesh : meshes) {
-        for (const ScaleRecord& scale : mesh.scales) {
-            const double edge = kEdgeLengthFactor * scale.rmin;
-            const std::string dash = format_number(kUnknown, 0);
-            Row initial{mesh.mesh.name, scale.label, "initial", format_significant(edge)};
-            const Row before = quality_cells(scale.initial_quality, edge, scale.has_initial_remesh);
-            initial.insert(initial.end(), before.begin(), before.end());
-            initial.insert(initial.end(), {format_percent(1), dash});
-            Row adapted{mesh.mesh.name, scale.label, "adapted", format_significant(edge)};
-            const Row after = quality_cells(scale.remesh_quality, edge, scale.has_remesh);
-            adapted.insert(adapted.end(), after.begin(), after.end());
-            adapted.insert(adapted.end(), {format_percent(scale.adaptation.report.coverage),
-                                           conforming_text(scale)});
-            table.rows.push_back(std::move(initial));
-            table.rows.push_back(std::move(adapted));
-            table.is_emphasized.insert(table.is_emphasized.end(), {false, true});
-        }
+    return table;
+}
+
+void add_engineer_rows(const MeshRecord& mesh, HtmlTable& table) {
+    const std::string dash = format_number(kUnknown, 0);
+    for (const ScaleRecord& scale : mesh.scales) {
+        const double edge = kEdgeLengthFactor * scale.rmin;
+        const ComparisonRow none;
+        const ComparisonRow& on_initial =
+            scale.has_initial_remesh && !scale.compared.empty() ? scale.compared.front().row : none;
+        const auto add = [&](const char* network, const TriangleQuality& quality, bool is_known,
+                             const ComparisonRow& measured, const Row& last) {
+            Row row{mesh.mesh.name, scale.label, network, format_significant(edge)};
+            const Row cells = quality_cells(quality, edge, is_known);
+            row.insert(row.end(), cells.begin(), cells.end());
+            row.push_back(share_of(measured.distance.hausdorff, measured.distance.diagonal, 2));
+            row.insert(row.end(), last.begin(), last.end());
+            table.rows.push_back(std::move(row));
+        };
+        add("initial", scale.initial_quality, scale.has_initial_remesh, on_initial,
+            {format_percent(1), dash});
+        add("adapted", scale.remesh_quality, scale.has_remesh, scale.remesh_row,
+            {format_percent(scale.adaptation.report.coverage), conforming_text(scale)});
+        table.is_emphasized.insert(table.is_emphasized.end(), {false, true});
     }
+}
+
+HtmlTable ways_table(const ScaleRecord& scale, double diagonal) {
+    HtmlTable table;
+    table.caption = "Ways to a mesh of this edge length, measured against the input";
+    table.header = {"Way",
+                    "Triangles",
+                    "Smallest angle",
+                    "Under 15\u00b0",
+                    "Under 30\u00b0",
+                    "Edges within S",
+                    "Hausdorff",
+                    "Mean distance",
+                    "Normals off",
+                    "Kept curves off"};
+    const auto add = [&](const std::string& name, const ComparisonRow& row) {
+        Row cells{name};
+        if (!row.failure.empty()) {
+            cells.push_back("failed: " + row.failure);
+            cells.resize(table.header.size(), format_number(kUnknown, 0));
+        } else {
+            cells.insert(cells.end(), {count_text(row.quality.faces),
+                                       format_number(row.quality.min_angle_degrees, 1) + "\u00b0",
+                                       format_percent(row.quality.share_under_15, 2),
+                                       format_percent(row.quality.share_under_30, 2),
+                                       format_percent(row.edges.inside, 1),
+                                       share_of(row.distance.hausdorff, diagonal, 2),
+                                       share_of(row.distance.mean_forward, diagonal, 3),
+                                       format_number(row.normals.mean_degrees, 1) + "\u00b0",
+                                       share_of(row.features.mean, diagonal, 3)});
+        }
+        table.rows.push_back(std::move(cells));
+    };
+    if (scale.has_remesh) add("Remesh on the adapted network", scale.remesh_row);
+    for (const auto& [name, row] : scale.compared) add(name, row);
+    table.is_emphasized = {scale.has_remesh};
     return table;
 }
 

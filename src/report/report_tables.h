@@ -6,7 +6,13 @@
 namespace fcn {
 
 /// What a mesh engineer reads: triangles on the initial and on the adapted network.
-HtmlTable engineer_table(const std::vector<MeshRecord>& meshes);
+HtmlTable engineer_table();
+/// The rows of one mesh in it.
+void add_engineer_rows(const MeshRecord& mesh, HtmlTable& table);
+
+/// Every way to a mesh of this scale that was taken, measured alike; distances in percent of
+/// `diagonal`.
+HtmlTable ways_table(const ScaleRecord& scale, double diagonal);
 
 /// Every solver on every problem of one scale, side by side.
 HtmlTable solver_table(const ScaleRecord& scale, bool has_timings);

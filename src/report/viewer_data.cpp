@@ -209,9 +209,10 @@ std::string ViewerData::level(const ScaleRecord& scale) const {
     if (scale.has_remesh)
         meshes.push_back(add_mesh(block, scale.remesh.mesh, "Remesh on the adapted network", grid_,
                                   face_limit_, &scale.remesh_quality));
-    for (const ComparedMesh& compared : scale.compared)
-        meshes.push_back(
-            add_mesh(block, compared.mesh, compared.name, grid_, face_limit_, &compared.quality));
+    for (const auto& [name, row] : scale.compared)
+        if (row.failure.empty())
+            meshes.push_back(
+                add_mesh(block, row.mesh.mesh, name, grid_, face_limit_, &row.quality));
     std::vector<double> kept(curve_length_.size(), 0);
     for (const NetworkArc& arc : network.arcs)
         for (std::size_t i = 0; i < arc.origins.size() && i + 1 < arc.samples.size(); ++i) {

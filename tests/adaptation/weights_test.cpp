@@ -286,8 +286,8 @@ InitialState state_of(const Mesh& mesh, const FeatureCurveNetwork& network, Adap
                       double rmin = 1) {
     LoadedMesh loaded;
     loaded.mesh = mesh;
-    const SurfaceQueries queries(loaded.mesh);
-    return make_initial_state(loaded, queries, network, make_scale(rmin), options_of(mode));
+    const AdaptationSurface surface(loaded.mesh);
+    return make_initial_state(loaded, surface, network, make_scale(rmin), options_of(mode));
 }
 
 Mesh flat_square() {

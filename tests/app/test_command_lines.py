@@ -10,7 +10,7 @@ from scalefcn_process import (BAD_INPUT, DONE, PROBLEM, PROGRAM, TETRAHEDRON, US
                               ProgramTest)
 
 COMMANDS = ["run", "detect", "adapt", "check", "remesh", "measure", "solve", "verify", "convert",
-            "explain", "model", "compare"]
+            "explain", "model", "compare", "draw"]
 
 
 class Help(ProgramTest):

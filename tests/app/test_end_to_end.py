@@ -228,6 +228,35 @@ class StepByStep(ProgramTest):
         self.assertEqual(len(json.loads(network)["arcs"]), 12)
 
 
+class ConvertedMeshes(ProgramTest):
+    def test_curves_go_along_from_format_to_format(self):
+        self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")
+        self.succeed("detect", "ribs.off", "--method", "sharp", "-o", "net.fcn.json")
+        self.succeed("remesh", "ribs.off", "--network", "net.fcn.json", "--scale", "8%", "-o", "a.obj")
+        edges = len(re.findall(r"(?m)^l ", (self.folder / "a.obj").read_text(encoding="utf-8")))
+        self.assertGreater(edges, 0)
+        before = self.succeed_json("convert", "a.obj", "back.fcn.json")
+        source = "a.obj"
+        for target in ("b.ply", "c.mesh", "d.msh", "e.obj"):
+            made = self.succeed_json("convert", source, target, "--as", "mesh")
+            self.assertGreater(made["curves"], 0, target)
+            after = self.succeed_json("convert", target, "back.fcn.json", "--as", "network")
+            for key in ("nodes", "arcs"):
+                self.assertEqual(after[key], before[key], target)
+            source = target
+        self.succeed("convert", source, "f.vtp", "--as", "mesh")
+        self.assertIn("NumberOfLines=\"%d\"" % made["curves"], (self.folder / "f.vtp").read_text(encoding="utf-8"))
+        plain = self.call("convert", "ribs.off", "g.obj")
+        self.assertNotIn("curves are left out", plain.stderr)
+
+    def test_curves_off_the_edges_are_left_out_and_said(self):
+        text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.2 0\nf 1 2 3\nf 1 3 4\nl 1 5\n"
+        self.write("a.obj", text)
+        result = self.call("convert", "a.obj", "b.ply", "--as", "mesh")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("curves are left out", result.stderr)
+
+
 class Run(ProgramTest):
     def test_files_keys_and_report(self):
         self.model("box", "--resolution", "0.1")
@@ -270,6 +299,23 @@ class Run(ProgramTest):
         self.assertEqual(missing.returncode, BAD_INPUT)
         self.assert_one_error(missing.stderr)
         self.assertIn("no-such.js", missing.stderr)
+
+    def test_baselines_are_measured_in_summary_and_report(self):
+        self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")
+        run = ["run", "ribs.off", "--scales", "6%,9%", "--solvers", "none", "-o", "out"]
+        summary = self.succeed_json(*run, "--baselines", "own-plain,quadrics")
+        report = (self.folder / "out/report.html").read_text(encoding="utf-8")
+        for scale in summary["meshes"][0]["scales"]:
+            ways = {way["way"]: way for way in scale["ways"]}
+            self.assertEqual(list(ways), ["own", "own-initial", "own-plain", "quadrics"])
+            self.assertEqual(ways["own"]["triangles"]["faces"], scale["remesh"]["faces"])
+            # The same as the other commands say.
+            folder = f"out/ribs/{scale['scale'].replace('%', 'pct')}"
+            measured = self.succeed_json("measure", f"{folder}/remesh.obj", "ribs.off")
+            self.assertAlmostEqual(measured["distance"]["hausdorff"],
+                                   ways["own"]["distance"]["hausdorff"], delta=1e-6)
+        for title in ("Plain remesh, no features", "Quadric decimation to as many vertices"):
+            self.assertEqual(len(re.findall(f"<th[^>]*>{title}</th>", report)), 2, title)
 
     def test_every_key_is_documented(self):
         self.model("box", "--resolution", "0.2")

@@ -252,6 +252,54 @@ TEST_F(Report, ViolationsAreListedThoseThatCountFirst) {
     EXPECT_NE(text.find("1 violation"), std::string::npos);
 }
 
+/// Widths of the pictures of one mesh in a report of `mesh_count`.
+std::vector<std::string> picture_widths(std::size_t mesh_count) {
+    fcn::Report report({}, mesh_count);
+    report.add(mesh_record("part"));
+    std::vector<std::string> widths;
+    for (const test::HtmlTag& tag : tags_named(test::check_html(report.html()), "img"))
+        widths.push_back(tag.attributes.at("width"));
+    return widths;
+}
+
+TEST(ReportSpace, PicturesShrinkWithTheNumberOfMeshesAndThenGo) {
+    const std::vector<std::string> one = picture_widths(1), many = picture_widths(60);
+    ASSERT_EQ(one.size(), 4U);
+    ASSERT_EQ(many.size(), 4U);
+    for (const std::string& width : one) EXPECT_EQ(width, "840");
+    for (const std::string& width : many) EXPECT_LT(std::stoi(width), 420);
+    EXPECT_TRUE(picture_widths(100'000).empty());
+}
+
+TEST(ReportSpace, PageGrowsMeshByMeshAsIfWrittenAtOnce) {
+    fcn::Report report({}, 2);
+    report.add(mesh_record("first"));
+    EXPECT_TRUE(test::check_html(report.html()).problems.empty());
+    EXPECT_EQ(report.html().find(">second<"), std::string::npos);
+    report.add(mesh_record("second"));
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("scalefcn_report_at_once_" + std::to_string(::getpid()) + ".html");
+    write_report(path, {mesh_record("first"), mesh_record("second")});
+    EXPECT_EQ(report.html(), read_file(path));
+    std::filesystem::remove(path);
+}
+
+TEST(ReportTables, WaysAreMeasuredSideBySideAndFailuresSaid) {
+    ScaleRecord scale = scale_record();
+    ComparisonRow plain, broken;
+    plain.quality.faces = 77;
+    plain.distance.hausdorff = 0.25;
+    broken.failure = "ran out of luck";
+    scale.compared = {{"Plain", plain}, {"Broken", broken}};
+    const HtmlTable table = ways_table(scale, 2);
+    ASSERT_EQ(table.rows.size(), 3U);
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.header.size());
+    EXPECT_EQ(table.rows[1][0], "Plain");
+    EXPECT_EQ(table.rows[1][1], "77");
+    EXPECT_EQ(table.rows[1][6], format_percent(0.125, 2));
+    EXPECT_NE(table.rows[2][1].find("ran out of luck"), std::string::npos);
+}
+
 TEST(ReportTables, HeaviestDropsComeFirstWithTheirBlockers) {
     const HtmlTable table = heaviest_drops_table(one_edge(true), 10);
     ASSERT_EQ(table.rows.size(), 2U);
@@ -265,9 +313,11 @@ TEST(ReportTables, HeaviestDropsComeFirstWithTheirBlockers) {
 TEST(ReportTables, RowsAreAsWideAsTheirHeaders) {
     const std::vector<MeshRecord> meshes{mesh_record("part")};
     const ScaleRecord& scale = meshes[0].scales[0];
+    HtmlTable engineer = engineer_table();
+    add_engineer_rows(meshes[0], engineer);
     for (const bool has_timings : {true, false}) {
         for (const HtmlTable& table :
-             {engineer_table(meshes), solver_table(scale, has_timings),
+             {engineer, ways_table(scale, 1), solver_table(scale, has_timings),
               iteration_table(scale, has_timings), reason_table(scale.adaptation.network),
               heaviest_drops_table(scale.adaptation.network, 5)}) {
             EXPECT_FALSE(table.rows.empty());

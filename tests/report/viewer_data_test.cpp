@@ -254,7 +254,8 @@ ScaleRecord scale_of(const FeatureCurveNetwork& initial) {
     scale.adaptation.report.iterations.emplace_back().angle_conflicts = 9;
     scale.remesh.mesh = make_model("gear", {}).mesh;
     scale.has_remesh = true;
-    scale.compared.push_back({"another", small_sphere(), {}});
+    scale.compared.push_back({"another", {}});
+    scale.compared.back().row.mesh.mesh = small_sphere();
     return scale;
 }
 
