@@ -126,11 +126,12 @@ private:
 
     bool is_on_surface(const Isometry& map, const SurfaceSample& sample, double tolerance,
                        ClosestPoint& closest) const {
-        closest = queries_.closest(map(sample.point));
+        const auto found = queries_.closest_within(map(sample.point), tolerance);
+        if (!found) return false;
+        closest = *found;
         // An improper isometry turns the surface inside out; its normals go along as vectors.
-        return closest.distance <= tolerance &&
-               (map.linear * sample.normal).dot(arrays_.normals[closest.surface.face]) >=
-                   kNormalCosine;
+        return (map.linear * sample.normal).dot(arrays_.normals[closest.surface.face]) >=
+               kNormalCosine;
     }
 
     /// Share of the first test points that land on the surface; 0 as soon as that is hopeless.

@@ -94,7 +94,9 @@ class ClosestTraversal {
 public:
     using Priority = double;
 
-    explicit ClosestTraversal(const Triangles& triangles) : triangles_(triangles) {}
+    explicit ClosestTraversal(const Triangles& triangles,
+                              double square_reach = std::numeric_limits<double>::infinity())
+        : triangles_(triangles), best_distance_(square_reach) {}
 
     static constexpr bool go_further() { return true; }
 
@@ -125,7 +127,7 @@ public:
 private:
     const Triangles& triangles_;
     SurfacePoint best_;
-    double best_distance_ = std::numeric_limits<double>::infinity();
+    double best_distance_;  ///< squared
 };
 
 struct Segment {
@@ -293,6 +295,20 @@ ClosestPoint SurfaceQueries::closest(const Vec3& point) const {
     result.position = fcn::position(*tree_->mesh, result.surface);
     result.distance = (result.position - point).norm();
     return result;
+}
+
+std::optional<ClosestPoint> SurfaceQueries::closest_within(const Vec3& point, double reach) const {
+    if (!point.allFinite()) throw InputError("closest point: the query is not finite");
+    if (!(reach >= 0)) return std::nullopt;
+    // Rounding of the square must not lose what is just within reach.
+    ClosestTraversal traversal(tree_->triangles, reach * reach * (1 + 1e-12));
+    tree_->boxes.traversal_with_priority(point, traversal);
+    if (traversal.best().face < 0) return std::nullopt;
+    ClosestPoint result;
+    result.surface = traversal.best();
+    result.position = fcn::position(*tree_->mesh, result.surface);
+    result.distance = (result.position - point).norm();
+    return result.distance <= reach ? std::optional(result) : std::nullopt;
 }
 
 std::vector<RayHit> SurfaceQueries::intersect_segment(const Vec3& from, const Vec3& to) const {

@@ -30,6 +30,8 @@ public:
     SurfaceQueries& operator=(SurfaceQueries&&) noexcept;
 
     ClosestPoint closest(const Vec3& point) const;
+    /// The same if it is at most `reach` away, which is found out much faster where it is not.
+    std::optional<ClosestPoint> closest_within(const Vec3& point, double reach) const;
     /// All faces that the closed segment meets, sorted by distance from `from`.
     std::vector<RayHit> intersect_segment(const Vec3& from, const Vec3& to) const;
     /// First hit at distance > min_distance; direction need not be unit, distance is in mesh units.

@@ -81,6 +81,25 @@ TEST(SurfaceQueries, ClosestPointAgainstBruteForce) {
     }
 }
 
+TEST(SurfaceQueries, WithinReachIsTheClosestOrNothing) {
+    const LoadedMesh torus = wrinkled_torus();
+    const SurfaceQueries queries(torus.mesh);
+    Randomness random(19);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 p = random.point(-0.7, 0.7);
+        const ClosestPoint closest = queries.closest(p);
+        for (double reach : {0.0, 0.5 * closest.distance, closest.distance, 0.1, 10.0}) {
+            const auto found = queries.closest_within(p, reach);
+            ASSERT_EQ(found.has_value(), closest.distance <= reach) << "reach " << reach;
+            if (!found) continue;
+            EXPECT_EQ(found->surface.face, closest.surface.face);
+            EXPECT_EQ(found->position, closest.position);
+        }
+    }
+    EXPECT_FALSE(queries.closest_within({0, 0, 0}, -1));
+    EXPECT_THROW(queries.closest_within({std::nan(""), 0, 0}, 1), InputError);
+}
+
 TEST(SurfaceQueries, TiesGoToTheLowestFace) {
     const LoadedMesh cube = cube_soup().load();
     const SurfaceQueries queries(cube.mesh);
