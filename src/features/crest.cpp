@@ -28,6 +28,7 @@ namespace {
 
 constexpr double kTwigRadii = 1;        // shorter dead ends at forks are none
 constexpr int kLeastSharpEdges = 6;     // in a chain; shorter ones may be noise on a crest
+constexpr int kFacetLines = 2;          // beside an edge of a rounded crest
 constexpr double kCertainAngle = 1.22;  // radians (70 degrees): sharp whatever runs beside it
 constexpr double kCleanRings = 3;       // wider fits mean noise
 constexpr double kSpacing = 0.2;        // of samples, in radii of the fits, where there is noise
@@ -97,8 +98,9 @@ struct Barriers {
     RobustDihedrals dihedrals;
 };
 
-/// The creases. Edges with the like beside them are facets of a rounded crest, which is found by
-/// fits.
+/// The creases. Edges with two lines of the like beside them are facets of a rounded crest, found
+/// by fits; two creases side by side, as of a chamfer, stay creases, but where noise makes lines
+/// too.
 Barriers sharp_barriers(const MeshArrays& arrays, const CrestOptions& options) {
     if (!options.is_sharp_first) return {std::vector<bool>(arrays.edge_count(), false), {}};
     SharpOptions sharp;
@@ -110,7 +112,8 @@ Barriers sharp_barriers(const MeshArrays& arrays, const CrestOptions& options) {
     for (int e = 0; e < arrays.edge_count(); ++e) {
         const double angle = std::abs(angles[e]);
         if (angle < sharp.low_angle || angle >= kCertainAngle) continue;
-        if (!is_isolated(arrays, angles, e)) facets.push_back(e);
+        const int most = dihedrals.is_noisy_edge[e] ? 1 : kFacetLines;
+        if (lines_beside(arrays, angles, e, most) == most) facets.push_back(e);
     }
     for (int e : facets) angles[e] = 0;
     std::vector<bool> is_sharp = sharp_edges(arrays, dihedrals, sharp, kLeastSharpEdges);

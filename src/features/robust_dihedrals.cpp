@@ -43,6 +43,7 @@ constexpr double kMeanFactor = 1.2;
 constexpr int kIsolationFaceCount = 14;  // faces searched for parallel edges
 constexpr double kIsolatedShare = 0.5;   // of the angle; more is comparable
 constexpr double kParallelCosine = 0.7;
+constexpr double kLineDistance = 0.3;  // of lines that count apart, in lengths of the edge
 
 /// The faces around `start` in breadth-first order, at most `limit`.
 std::vector<int> grow(const MeshArrays& arrays, int start, int limit) {
@@ -234,11 +235,12 @@ bool is_noisy_place(const MeshArrays& arrays, int face, double share) {
     return above[0] >= half && above[1] >= half;
 }
 
-bool is_isolated(const MeshArrays& arrays, const std::vector<double>& angles, int edge) {
+int lines_beside(const MeshArrays& arrays, const std::vector<double>& angles, int edge, int most) {
     const auto [from, to] = arrays.edge_vertices[edge];
     const Vec3 middle = 0.5 * (arrays.points[from] + arrays.points[to]);
     const double length = arrays.edge_length(edge);
     const Vec3 along = (arrays.points[to] - arrays.points[from]) / length;
+    std::vector<Vec3> lines;  // offsets across the edge
     for (int side : arrays.edge_faces[edge]) {
         for (int f : grow(arrays, side, kIsolationFaceCount)) {
             for (int e : arrays.face_edges[f]) {
@@ -246,18 +248,29 @@ bool is_isolated(const MeshArrays& arrays, const std::vector<double>& angles, in
                 const Vec3& a = arrays.points[arrays.edge_vertices[e][0]];
                 const Vec3& b = arrays.points[arrays.edge_vertices[e][1]];
                 const Vec3 offset = 0.5 * (a + b) - middle;
-                const double lateral = (offset - offset.dot(along) * along).norm();
+                const Vec3 across = offset - offset.dot(along) * along;
                 const bool is_parallel =
                     std::abs((b - a).normalized().dot(along)) > kParallelCosine;
-                if (is_parallel && lateral > 0.3 * length) return false;
+                if (!is_parallel || across.norm() <= kLineDistance * length) continue;
+                const bool is_known = std::any_of(lines.begin(), lines.end(), [&](const Vec3& l) {
+                    return (l - across).norm() <= kLineDistance * length;
+                });
+                if (is_known) continue;
+                lines.push_back(across);
+                if (static_cast<int>(lines.size()) == most) return most;
             }
         }
     }
-    return true;
+    return static_cast<int>(lines.size());
+}
+
+bool is_isolated(const MeshArrays& arrays, const std::vector<double>& angles, int edge) {
+    return lines_beside(arrays, angles, edge, 1) == 0;
 }
 
 RobustDihedrals robust_dihedrals(const MeshArrays& arrays, double low_angle, int threads) {
-    RobustDihedrals result{arrays.dihedrals, std::vector<bool>(arrays.edge_count(), false), {}, 0, 0};
+    RobustDihedrals result{
+        arrays.dihedrals, std::vector<bool>(arrays.edge_count(), false), {}, 0, 0};
     std::vector<bool> is_candidate(arrays.edge_count());
     for (int e = 0; e < arrays.edge_count(); ++e)
         is_candidate[e] = std::abs(arrays.dihedrals[e]) >= low_angle;

@@ -26,6 +26,10 @@ RobustDihedrals robust_dihedrals(const MeshArrays& arrays, double low_angle, int
 /// `share` scales the thresholds. Never true of parts of fewer faces.
 bool is_noisy_place(const MeshArrays& arrays, int face, double share = 1);
 
+/// Number of lines of edges of comparable angle beside this one that run along it, counted up to
+/// `most`.
+int lines_beside(const MeshArrays& arrays, const std::vector<double>& angles, int edge, int most);
+
 /// Is there no edge of comparable angle beside this one that runs along it? True of a crease, not
 /// of the facets of a coarsely meshed curved surface.
 bool is_isolated(const MeshArrays& arrays, const std::vector<double>& angles, int edge);

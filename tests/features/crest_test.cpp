@@ -438,5 +438,34 @@ TEST(Crest, ArcsOfOneLineAreOneCurve) {
     }
 }
 
+/// Two creases side by side are no rounded crest: a square tube with chamfers of one edge.
+TEST(Crest, ChamfersAreCreases) {
+    constexpr int kLength = 40, kSide = 10;
+    std::vector<Vec3> profile;
+    for (int side = 0; side < 4; ++side) {
+        const double c = std::round(std::cos(side * kPi / 2)),
+                     s = std::round(std::sin(side * kPi / 2));
+        for (int i = 0; i <= kSide; ++i) {
+            const double x = kSide / 2.0 + std::sqrt(0.5), y = i - kSide / 2.0;
+            profile.emplace_back(c * x - s * y, s * x + c * y, 0);
+        }
+    }
+    const int count = static_cast<int>(profile.size());
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
+    for (int z = 0; z <= kLength; ++z)
+        for (const Vec3& p : profile) points.emplace_back(p.x(), p.y(), z);
+    for (int z = 0; z < kLength; ++z) {
+        for (int i = 0; i < count; ++i) {
+            const int a = z * count + i, b = z * count + (i + 1) % count;
+            triangles.push_back({a, b, b + count});
+            triangles.push_back({a, b + count, a + count});
+        }
+    }
+    const FeatureCurveNetwork found = detect_crest(mesh_from_soup(points, triangles));
+    EXPECT_EQ(found.arcs.size(), 8u);
+    EXPECT_NEAR(length_of_source(found, "sharp"), 8 * kLength, 1e-9);
+}
+
 }  // namespace
 }  // namespace fcn
