@@ -4,12 +4,14 @@
 // begins with the triangle where the last one for this vertex ended: what is left to do is to prove
 // that nothing is closer. Faces that look away from the asker's normal do not count, or vertices
 // of a thin wall would swap sides (the one thing that a plain closest-point query, as in
-// geometry/surface_queries, cannot say).
+// geometry/surface_queries, cannot say). A cone around the normals below each node skips the far
+// side of the wall as a whole.
 #include "meshing/reference_surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "geometry/errors.h"
 
@@ -100,6 +102,47 @@ ReferenceSurface::ReferenceSurface(const std::vector<std::array<Vec3, 3>>& corne
         slots_[face] = static_cast<int>(i);
     }
     triangles_ = std::move(ordered);
+    cones_.resize(nodes_.size());
+    add_cones(0);
+}
+
+/// Fills the cones of a subtree, from the leaves up; returns the half angle of its node's.
+double ReferenceSurface::add_cones(int index) {
+    constexpr double kRounding = 1e-3;
+    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    const auto axis_of = [&](int of) {
+        const auto& axis = cones_[static_cast<std::size_t>(of)].axis;
+        return Vec3(axis[0], axis[1], axis[2]);
+    };
+    const auto angle = [](const Vec3& a, const Vec3& b) {
+        return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
+    };
+    Vec3 axis = Vec3::Zero();
+    double half = 0;
+    if (node.count > 0) {
+        for (int i = node.begin; i < node.begin + node.count; ++i)
+            axis += normals_[static_cast<std::size_t>(i)];
+        axis.normalize();
+        for (int i = node.begin; i < node.begin + node.count; ++i) {
+            const Vec3& normal = normals_[static_cast<std::size_t>(i)];
+            // A triangle without a normal counts from everywhere.
+            half = std::max(half, normal.isZero(0) ? std::numbers::pi : angle(axis, normal));
+        }
+        half += kRounding;
+    } else {
+        const double left = add_cones(index + 1), right = add_cones(node.begin);
+        axis = (axis_of(index + 1) + axis_of(node.begin)).normalized();
+        half = std::max(left + angle(axis, axis_of(index + 1)),
+                        right + angle(axis, axis_of(node.begin)));
+    }
+    if (!(half < std::numbers::pi) || axis.isZero(0)) half = std::numbers::pi;
+    Cone& cone = cones_[static_cast<std::size_t>(index)];
+    for (std::size_t k = 0; k < 3; ++k)
+        cone.axis[k] = static_cast<float>(axis[static_cast<int>(k)]);
+    cone.cosine = static_cast<float>(std::cos(half));
+    cone.sine = static_cast<float>(std::sin(half));
+    if (half == std::numbers::pi) cone.sine = 0;
+    return half;
 }
 
 /// Builds the subtree over items [begin, end), which it reorders; returns its node.
@@ -174,12 +217,24 @@ ReferencePoint ReferenceSurface::closest(const Vec3& point, const Vec3& normal, 
         }
         return sum;
     };
+    // Of the largest angle from `normal` at which a triangle counts.
+    const double length = normal.norm();
+    const double wide_cosine = is_any_sheet ? -1 : std::max(-1.0, least_cosine / length);
+    const double wide_sine = std::sqrt(std::max(0.0, 1 - wide_cosine * wide_cosine));
+    const auto looks_away = [&](int index) {
+        const Cone& cone = cones_[static_cast<std::size_t>(index)];
+        const double sine = cone.sine * wide_cosine + cone.cosine * wide_sine;
+        if (!(sine > 0)) return false;  // together half a turn and more
+        const double along =
+            cone.axis[0] * normal[0] + cone.axis[1] * normal[1] + cone.axis[2] * normal[2];
+        return along < (cone.cosine * wide_cosine - cone.sine * wide_sine) * length;
+    };
     std::array<std::pair<double, int>, kMaxDepth> stack;
     std::size_t depth = 0;
     stack[depth++] = {box_square(nodes_[0]), 0};
     while (depth > 0) {
         const auto [square, index] = stack[--depth];
-        if (square >= best_square) continue;
+        if (square >= best_square || looks_away(index)) continue;
         const Node& node = nodes_[static_cast<std::size_t>(index)];
         if (node.count > 0) {
             for (int i = 0; i < node.count; ++i)

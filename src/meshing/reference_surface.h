@@ -45,13 +45,21 @@ private:
     struct Triangle {
         Vec3 a, ab, ac;
     };
+    /// Around the normals of all triangles below a node.
+    struct Cone {
+        std::array<float, 3> axis{};
+        float cosine = -1, sine = 0;  ///< of the half angle; a half turn holds every normal
+    };
     struct Item;
     int build(std::vector<Item>& items, int begin, int end);
     std::size_t slot(int face) const {
         return static_cast<std::size_t>(slots_[static_cast<std::size_t>(face)]);
     }
 
+    double add_cones(int index);
+
     std::vector<Node> nodes_;
+    std::vector<Cone> cones_;          ///< of the nodes
     std::vector<Triangle> triangles_;  ///< in the order of the leaves
     std::vector<Vec3> normals_;        ///< the same
     std::vector<int> faces_;           ///< face of a triangle
