@@ -6,20 +6,24 @@
 // fillet of radius two edges turns by 30 degrees at each edge, and by 60 beside it.
 //
 // The noise chose the chain, which therefore turns too much and its surroundings too little; hence
-// the share that is asked for is above one half.
+// the share that is asked for is above one half. And where what turns beside it is too sharp for
+// facets, a chain has strayed from a crease or runs beside one, and stays.
 
 #include "features/rounded_edges.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace fcn {
 namespace {
 
-constexpr int kReach = 12;          // edges of a chain to either side
-constexpr int kLeastEdges = 7;      // fewer tell too little
+constexpr int kReach = 12;         // edges of a chain to either side
+constexpr int kLeastEdges = 7;     // fewer tell too little
 constexpr double kOwnShare = 0.7;  // of the turning of a crease
-constexpr double kHeights = 3;      // of faces, over the displacement: lower ones tell nothing
+constexpr double kHeights = 3;     // of faces, over the displacement: lower ones tell nothing
+constexpr double kNoFacet = 60 * std::numbers::pi / 180;
+constexpr double kCreasedShare = 0.3;  // of the turning beside a chain, if a crease is there
 constexpr int kMostRounds = 3;
 constexpr int kLeastRest = 6;  // edges that are left between what goes, or go too
 
@@ -27,6 +31,7 @@ constexpr int kLeastRest = 6;  // edges that are left between what goes, or go t
 /// the lower of its faces.
 struct Turning {
     double own = 0, beside = 0, length = 0, height = 0;
+    double creased = 0;  ///< of what lies beside, by edges too sharp for a facet
 };
 
 struct Sums : Turning {
@@ -34,6 +39,7 @@ struct Sums : Turning {
     void add(const Turning& edge) {
         own += edge.own;
         beside += edge.beside;
+        creased += edge.creased;
         length += edge.length;
         height += edge.height;
         ++count;
@@ -101,6 +107,7 @@ private:
         if (sums.height < kHeights * dihedrals_.displacement * sums.count) return false;
         if (std::abs(sums.own) >= high_angle_ * sums.length) return false;
         const double sign = sums.own < 0 ? -1 : 1;
+        if (sign * sums.creased > kCreasedShare * sign * sums.beside) return false;
         return sign * sums.own < kOwnShare * sign * (sums.own + sums.beside);
     }
 
@@ -120,7 +127,7 @@ private:
         std::vector<Turning> result;
         for (int e : arc) {
             const double length = arrays_.edge_length(e);
-            result.push_back({length * arrays_.dihedrals[e], 0, length, least_height(e)});
+            result.push_back({length * arrays_.dihedrals[e], 0, length, least_height(e), 0});
             stamp_[e] = -1;
         }
         for (int e : near) {
@@ -128,7 +135,10 @@ private:
             const Vec3 edge = direction(e), chain = direction(arc[nearest_[e]]);
             const double dot = edge.dot(chain);
             const double norms = edge.norm() * chain.squaredNorm();
-            if (norms > 0) result[nearest_[e]].beside += arrays_.dihedrals[e] * dot * dot / norms;
+            if (!(norms > 0)) continue;
+            const double turning = arrays_.dihedrals[e] * dot * dot / norms;
+            result[nearest_[e]].beside += turning;
+            if (std::abs(arrays_.dihedrals[e]) >= kNoFacet) result[nearest_[e]].creased += turning;
         }
         return result;
     }
