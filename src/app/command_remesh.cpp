@@ -29,6 +29,14 @@ struct RemeshArguments {
     std::string with = "own";
 };
 
+Json places_json(const std::vector<RefinedPlace>& places) {
+    Json json = Json::array();
+    for (const RefinedPlace& place : places)
+        json.push_back({{"position", {place.position[0], place.position[1], place.position[2]}},
+                        {"edge_length", place.edge_length}});
+    return json;
+}
+
 int remesh(const RemeshArguments& arguments) {
     if (arguments.type == "quad")
         throw UsageError("--type quad is not available in this version; use --type tri");
@@ -60,6 +68,8 @@ int remesh(const RemeshArguments& arguments) {
                   {"feature_edges", result.feature_edges.size()},
                   {"broken_segments", result.broken_segments},
                   {"forced_faces", result.forced_faces},
+                  {"new_intersections", result.new_intersections},
+                  {"refined_places", places_json(result.refined_places)},
                   {"triangles", quality_json(quality, options.edge_length)},
                   {"warnings", result.warnings},
                   {"files", arguments.outputs}};
@@ -72,6 +82,10 @@ int remesh(const RemeshArguments& arguments) {
         "{:.2f} % under 15, {:.2f} % under 30\n",
         quality.vertices, quality.faces, options.edge_length, quality.min_angle_degrees,
         100 * quality.share_under_15, 100 * quality.share_under_30);
+    if (!result.refined_places.empty())
+        fmt::print(
+            "edges are shorter around {} places, where that length cannot carry the surface\n",
+            result.refined_places.size());
     for (const std::string& output : arguments.outputs) fmt::print("wrote {}\n", output);
     return kDone;
 }

@@ -173,6 +173,7 @@ Json comparison_json(const ComparisonRow& row, double edge_length, bool has_timi
     json["features"] = feature_deviation_json(row.features);
     json["broken_segments"] = row.broken_segments;
     json["forced_faces"] = row.forced_faces;
+    json["self_intersections"] = row.self_intersections;
     json["warnings"] = row.warnings;
     if (has_timings) json["cpu_seconds"] = row.cpu_seconds;
     return json;

@@ -5,24 +5,24 @@
 // or split an edge at the bad triangle or at its neighbours, relax the patch around it by flips and
 // moves, then compare the patch as a whole. A journal takes back what did not pay, so that a trial
 // costs what it touches. The patch's distance from the reference may not grow beyond a small share
-// of the edge length, and a face that looks away from the surface there counts as far from it; thin
-// walls are not dented; the limits loosen in stages, for what is left.
+// of the edge length, a face that looks away from the surface there counts as far from it, and no
+// triangles may come to cross; the limits loosen in stages, for what is left.
 #include "meshing/angle_improvement.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "meshing/crossing_guard.h"
 #include "meshing/patch.h"
 #include "meshing/triangle_shape.h"
 
 namespace fcn {
 namespace {
 
-constexpr double kLeastGain = 0.02;   ///< share of the bad triangle's own penalty
-constexpr double kLongest = 1.6;      ///< in targets: a collapse makes no longer edge
-constexpr double kGrowth = 1.02;      ///< of a deviation that is larger already
-constexpr double kShareOfWall = 0.3;  ///< deviation over the distance to the sheet behind
+constexpr double kLeastGain = 0.02;  ///< share of the bad triangle's own penalty
+constexpr double kLongest = 1.6;     ///< in targets: a collapse makes no longer edge
+constexpr double kGrowth = 1.02;     ///< of a deviation that is larger already
 constexpr std::size_t kMostChecked = 4;
 
 /// What bad triangles are left may cost more shape: those beside creases that no network keeps.
@@ -44,7 +44,8 @@ public:
           target_(target),
           options_(options),
           bad_cosine_(std::cos(options.good_angle)),
-          patch_(mesh, reference, target) {}
+          patch_(mesh, reference, target),
+          guard_(mesh, target.length) {}
 
     AngleStatistics run() {
         AngleStatistics statistics;
@@ -76,7 +77,7 @@ private:
     std::vector<std::pair<double, int>> bad_faces() const {
         std::vector<std::pair<double, int>> bad;
         for (int f = 0; f < mesh_.face_end(); ++f) {
-            if (!mesh_.is_face_alive(f)) continue;
+            if (!mesh_.is_face_alive(f) || mesh_.is_face_resting(f)) continue;
             const double cosine = cosine_of(f);
             if (cosine > bad_cosine_ && !is_angle_forced(mesh_, f)) bad.emplace_back(-cosine, f);
         }
@@ -123,21 +124,26 @@ private:
         }
         if (promising.empty()) return false;
         std::sort(promising.begin(), promising.end());
-        const Deviation was = patch_.deviation();
-        const double allowed = std::max(limits_.deviation * target_.length, kGrowth * was.distance);
-        const double wall = std::max(kShareOfWall, kGrowth * was.share_of_wall);
+        const double was = patch_.deviation();
+        const std::size_t crossings = guard_.crossings(patch_.faces());
+        const double allowed = std::max(limits_.deviation * target_.at(mesh_, a), kGrowth * was);
         for (std::size_t k = 0; k < std::min(promising.size(), kMostChecked); ++k) {
             const auto checkpoint = mesh_.start_recording();
             apply(trials[promising[k].second]);
             patch_.relax();
-            const Deviation is = patch_.deviation();
-            if (is.distance <= allowed && is.share_of_wall <= wall) {
+            if (patch_.deviation() <= allowed && crossings_after() <= crossings) {
                 mesh_.forget();
                 return true;
             }
             mesh_.undo(checkpoint);
         }
         return false;
+    }
+
+    std::size_t crossings_after() {
+        const std::vector<int> faces = patch_.faces();
+        for (const int f : faces) guard_.update_face(f);
+        return guard_.crossings(faces);
     }
 
     std::vector<Trial> trials_at(int face) const {
@@ -238,6 +244,7 @@ private:
     double bad_cosine_;
     PatchLimits limits_;
     Patch patch_;
+    CrossingGuard guard_;
     std::vector<int> changed_, tried_;  ///< per face: when its patch changed, and was tried, last
     int clock_ = 0;                     ///< changes so far
 };

@@ -11,6 +11,7 @@
 #include "geometry/mesh_curves.h"
 #include "meshing/baselines.h"
 #include "meshing/reference_surface.h"
+#include "meshing/self_intersections.h"
 
 namespace fcn {
 namespace {
@@ -86,6 +87,7 @@ void measure_row(const ComparisonInput& input, ComparisonRow& row) {
     const ReferenceSurface& surface = input.reference ? *input.reference : *own;
     row.distance = measure_distance(row.mesh.mesh, input.mesh.mesh, surface, input.sample_spacing);
     row.normals = measure_normals(row.mesh.mesh, input.mesh.mesh, surface, input.sample_spacing);
+    row.self_intersections = self_intersections(row.mesh.mesh).size();
     row.features = measure_features(row.mesh.mesh, input.adapted, input.sample_spacing);
 }
 

@@ -30,6 +30,7 @@ struct ComparisonRow {
     NormalDeviation normals;
     FeatureDeviation features;  ///< of the adapted network
     std::size_t broken_segments = 0, forced_faces = 0;
+    std::size_t self_intersections = 0;  ///< pairs of faces, those of the input's included
     std::vector<std::string> warnings;
     double cpu_seconds = 0;  ///< of the whole process while it was made
 };

@@ -11,7 +11,7 @@
 namespace fcn {
 
 EdgeTarget target_by_curvature(const Mesh& mesh, double edge_length, double tolerance) {
-    EdgeTarget target{edge_length, {}};
+    EdgeTarget target{edge_length, {}, {}, {}};
     CurvatureOptions options;
     options.radius = edge_length / 2;
     const PrincipalCurvatures curvatures = principal_curvatures(mesh, options);

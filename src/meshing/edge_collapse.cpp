@@ -11,6 +11,7 @@
 #include <limits>
 #include <utility>
 
+#include "meshing/crossing_guard.h"
 #include "meshing/remeshing_steps.h"
 #include "meshing/triangle_shape.h"
 
@@ -64,11 +65,14 @@ bool keeps_faces(const WorkingMesh& mesh, int vanishing, int staying, const Limi
     });
 }
 
-bool try_collapse(WorkingMesh& mesh, int h, int vanishing, const Limits& limits) {
+bool try_collapse(WorkingMesh& mesh, CrossingGuard& guard, int h, int vanishing,
+                  const Limits& limits) {
     const int staying = mesh.from(h) == vanishing ? mesh.to(h) : mesh.from(h);
-    if (!mesh.can_collapse(h, vanishing) || !keeps_faces(mesh, vanishing, staying, limits))
+    if (!mesh.can_collapse(h, vanishing) || !keeps_faces(mesh, vanishing, staying, limits) ||
+        !guard.allows_collapse(h, vanishing))
         return false;
     mesh.collapse(h, vanishing);
+    guard.update_star(staying);
     return true;
 }
 
@@ -99,22 +103,24 @@ std::size_t collapse_short_edges(WorkingMesh& mesh, const EdgeTarget& target, do
         return squared_length(mesh, h) < limit * limit;
     };
     for (int h = 0; h < mesh.halfedge_end(); ++h)
-        if (mesh.is_first(h) && is_short(h))
+        if (mesh.is_first(h) && !mesh.is_edge_resting(h) && is_short(h))
             queue.emplace_back(static_cast<float>(squared_length(mesh, h)), h);
+    if (queue.empty()) return 0;
     std::sort(queue.begin(), queue.end());
+    CrossingGuard guard(mesh, std::max(share, 0.5) * target.length);
     std::size_t count = 0;
     for (const auto& [square, h] : queue) {
         if (!mesh.is_halfedge_alive(h) || !is_short(h)) continue;
         const double longest = kLongestEdge * target.of_edge(mesh, h);
         const Limits limits{longest, mesh.is_marked(h) ? kMaxTurnChain : kMaxTurnFree, 0.02};
-        if (try_collapse(mesh, h, mesh.from(h), limits) ||
-            try_collapse(mesh, h, mesh.to(h), limits))
+        if (try_collapse(mesh, guard, h, mesh.from(h), limits) ||
+            try_collapse(mesh, guard, h, mesh.to(h), limits))
             ++count;
     }
     return count;
 }
 
-std::size_t straighten_chains(WorkingMesh& mesh) {
+std::size_t straighten_chains(WorkingMesh& mesh, const EdgeTarget& target) {
     std::vector<std::pair<double, int>> queue;
     for (int h = 0; h < mesh.halfedge_end(); ++h)
         if (mesh.is_first(h) && mesh.role(h) == EdgeRole::Feature &&
@@ -123,10 +129,11 @@ std::size_t straighten_chains(WorkingMesh& mesh) {
     if (queue.empty()) return 0;
     std::sort(queue.begin(), queue.end());
     const Limits limits{std::numeric_limits<double>::infinity(), kMaxTurnChain, 1e-4};
+    CrossingGuard guard(mesh, target.length);
     std::size_t count = 0;
     for (const auto& [square, h] : queue)
-        if (mesh.is_halfedge_alive(h) && (try_collapse(mesh, h, mesh.from(h), limits) ||
-                                          try_collapse(mesh, h, mesh.to(h), limits)))
+        if (mesh.is_halfedge_alive(h) && (try_collapse(mesh, guard, h, mesh.from(h), limits) ||
+                                          try_collapse(mesh, guard, h, mesh.to(h), limits)))
             ++count;
     if (count > 0) return count;
     std::vector<int> blocking;

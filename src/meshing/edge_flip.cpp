@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "meshing/crossing_guard.h"
 #include "meshing/remeshing_steps.h"
 #include "meshing/triangle_shape.h"
 
@@ -72,14 +73,22 @@ std::vector<int> excess_valences(const WorkingMesh& mesh) {
     return excess;
 }
 
+void flip(WorkingMesh& mesh, CrossingGuard& guard, int h) {
+    mesh.flip(h);
+    guard.update_face(WorkingMesh::face(h));
+    guard.update_face(WorkingMesh::face(mesh.twin(h)));
+}
+
 }  // namespace
 
-std::size_t flip_for_valence(WorkingMesh& mesh) {
+std::size_t flip_for_valence(WorkingMesh& mesh, const EdgeTarget& target) {
+    CrossingGuard guard(mesh, target.length);
     std::vector<int> excess = excess_valences(mesh);
     const auto at = [&](int v) -> int& { return excess[static_cast<std::size_t>(v)]; };
     std::size_t count = 0;
     for (int h = 0; h < mesh.halfedge_end(); ++h) {
-        if (!mesh.is_first(h) || mesh.twin(h) < 0 || mesh.is_marked(h)) continue;
+        if (!mesh.is_first(h) || mesh.twin(h) < 0 || mesh.is_marked(h) || mesh.is_edge_resting(h))
+            continue;
         const int a = mesh.from(h), b = mesh.to(h), c = mesh.apex(h), d = mesh.apex(mesh.twin(h));
         // (x - 1)^2 - x^2 = 1 - 2 x, and the other way round.
         const int change = 4 - 2 * at(a) - 2 * at(b) + 2 * at(c) + 2 * at(d);
@@ -87,8 +96,9 @@ std::size_t flip_for_valence(WorkingMesh& mesh) {
         const FlipShape shape = shape_of_flip(mesh, h);
         const bool is_better = change < 0 ? shape.after < std::max(shape.before, kPoorCosine)
                                           : shape.after < shape.before - 0.02;
-        if (!is_better || !shape.keeps_surface || !mesh.can_flip(h)) continue;
-        mesh.flip(h);
+        if (!is_better || !shape.keeps_surface || !mesh.can_flip(h) || !guard.allows_flip(h))
+            continue;
+        flip(mesh, guard, h);
         --at(a);
         --at(b);
         ++at(c);
@@ -98,14 +108,17 @@ std::size_t flip_for_valence(WorkingMesh& mesh) {
     return count;
 }
 
-std::size_t flip_for_angles(WorkingMesh& mesh) {
+std::size_t flip_for_angles(WorkingMesh& mesh, const EdgeTarget& target) {
+    CrossingGuard guard(mesh, target.length);
     std::size_t count = 0;
     for (int h = 0; h < mesh.halfedge_end(); ++h) {
-        if (!mesh.is_first(h) || mesh.twin(h) < 0 || mesh.is_marked(h)) continue;
-        const FlipShape shape = shape_of_flip(mesh, h);
-        if (shape.after >= shape.before - 1e-6 || !shape.keeps_surface || !mesh.can_flip(h))
+        if (!mesh.is_first(h) || mesh.twin(h) < 0 || mesh.is_marked(h) || mesh.is_edge_resting(h))
             continue;
-        mesh.flip(h);
+        const FlipShape shape = shape_of_flip(mesh, h);
+        if (shape.after >= shape.before - 1e-6 || !shape.keeps_surface || !mesh.can_flip(h) ||
+            !guard.allows_flip(h))
+            continue;
+        flip(mesh, guard, h);
         ++count;
     }
     return count;

@@ -1,13 +1,15 @@
 // The first step of incremental remeshing (Botsch, Kobbelt 2004, section 3): no edge longer than
 // 4/3 of the target. Longest first, so that the halves of a long edge come before shorter edges
 // beside it, whose split would leave needles; for the same reason (and because it would never end)
-// edges beside a longer one that may not be split are left.
+// edges beside a longer one that may not be split are left, and those whose middle is a corner.
 #include <queue>
 
 #include "meshing/remeshing_steps.h"
 
 namespace fcn {
 namespace {
+
+constexpr double kTaken = 0.02;  ///< in targets: a middle this near a vertex
 
 struct LongEdge {
     double square;  ///< length over target, squared
@@ -34,8 +36,18 @@ std::size_t split_long_edges(WorkingMesh& mesh, const EdgeTarget& target) {
                         return true;
         return false;
     };
+    // Beside long features flat triangles would breed others, each with its middle on an old
+    // vertex.
+    const auto is_middle_taken = [&](int h, const Vec3& middle) {
+        for (const int side : {h, mesh.twin(h)}) {
+            if (side < 0) continue;
+            const double least = kTaken * target.of_edge(mesh, h);
+            if ((mesh.point(mesh.apex(side)) - middle).squaredNorm() < least * least) return true;
+        }
+        return false;
+    };
     const auto consider = [&](int h) {
-        if (mesh.role(h) == EdgeRole::Feature) return;
+        if (mesh.role(h) == EdgeRole::Feature || mesh.is_edge_resting(h)) return;
         const double ratio = square(h);
         if (ratio > kLongestEdge * kLongestEdge * (1 + 1e-9)) queue.push({ratio, h});
     };
@@ -49,7 +61,9 @@ std::size_t split_long_edges(WorkingMesh& mesh, const EdgeTarget& target) {
         if (square(edge.halfedge) != edge.square || is_beside_longer_feature(edge.halfedge))
             continue;
         const int h = edge.halfedge;
-        const int middle = mesh.split(h, 0.5 * (mesh.point(mesh.from(h)) + mesh.point(mesh.to(h))));
+        const Vec3 point = 0.5 * (mesh.point(mesh.from(h)) + mesh.point(mesh.to(h)));
+        if (is_middle_taken(h, point)) continue;
+        const int middle = mesh.split(h, point);
         ++count;
         mesh.visit_star(middle, [&](int out) {
             consider(out);

@@ -22,6 +22,8 @@ namespace {
 
 using Kind = SimplexPoint::Kind;
 
+constexpr double kMostDetour = 4;  ///< length of a path over the surface to that of its points
+
 struct EdgeStop {
     double t = 0;
     int id = -1;
@@ -249,7 +251,8 @@ public:
     }
 
 private:
-    /// Point ids along a piece, consecutive ones sharing a face; empty if there is no way.
+    /// Point ids along a piece, consecutive ones sharing a face; empty if there is no way, or only
+    /// one around half the part: a point that lies on the wrong sheet of a thin wall.
     std::vector<int> lay_out(const FeaturePiece& piece) {
         const int from = result_.station_vertex[static_cast<std::size_t>(piece.from)];
         const int to = result_.station_vertex[static_cast<std::size_t>(piece.to)];
@@ -259,9 +262,16 @@ private:
         places.push_back(points_.place(to));
         places = simplify(mesh_, places, options_.flatness);
 
+        double wanted = options_.detour;
+        for (std::size_t i = 1; i < places.size(); ++i)
+            wanted +=
+                kMostDetour * (position(mesh_, places[i]) - position(mesh_, places[i - 1])).norm();
         std::vector<int> path{from};
         const auto go_to = [&](int id) {
-            if (id != path.back()) path.push_back(id);
+            if (id == path.back()) return;
+            const Vec3& here = points_.positions()[static_cast<std::size_t>(path.back())];
+            wanted -= (points_.positions()[static_cast<std::size_t>(id)] - here).norm();
+            path.push_back(id);
         };
         for (std::size_t i = 1; i < places.size(); ++i) {
             const bool is_last = i + 1 == places.size();
@@ -273,6 +283,10 @@ private:
             }
             for (const SimplexPoint& place : *between) go_to(points_.add(place));
             go_to(next);
+            if (wanted < 0) {
+                ++result_.lost_pieces;
+                return {};
+            }
         }
         return path;
     }

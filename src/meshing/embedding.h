@@ -22,6 +22,7 @@ struct EmbeddedMesh {
 struct EmbeddingOptions {
     double snap = 0;      ///< largest distance to snap to a vertex or an edge, mesh units
     double flatness = 0;  ///< curves are followed up to this deviation inside faces, mesh units
+    double detour = 0;    ///< what a curve's path may be longer than four times its points' way
 };
 
 /// Pieces whose chains meet away from their ends, each with every piece it meets; ascending.

@@ -14,6 +14,9 @@ struct IncrementalStatistics {
     AngleStatistics angles;
 };
 
+/// Collapses what is much shorter than the target, so that all that follows is cheap.
+void coarsen_early(WorkingMesh& mesh, const EdgeTarget& target, const ReferenceSurface& reference);
+
 /// Incremental remeshing (Botsch, Kobbelt 2004) of `mesh`, whose vertices lie on `reference`, to
 /// edges in [4/5, 4/3] of the target; chains of feature edges between fixed vertices become single
 /// edges where topology and shape permit. Ends compacted. Deterministic.

@@ -25,6 +25,7 @@ EmbeddedMesh embed_apart(const LoadedMesh& input, FeaturePieces pieces, double e
     EmbeddingOptions options;
     options.snap = kSnapShare * edge_length;
     options.flatness = kFlatnessShare * edge_length;
+    options.detour = edge_length;
     EmbeddedMesh embedded = embed_pieces(input.mesh, pieces, options);
     for (int round = 0; round < kMaxUntangling; ++round) {
         bool is_changed = false;
@@ -124,8 +125,8 @@ NetworkInMesh embed_network(const LoadedMesh& input, const FeatureCurveNetwork& 
         EmbeddedMesh embedded = embed_apart(input, pieces, edge_length);
         if (embedded.lost_pieces > 0)
             warnings.push_back(std::to_string(embedded.lost_pieces) +
-                               " pieces of the network join parts of the mesh that are not "
-                               "connected; they are left out");
+                               " pieces of the network join points that are not connected, or "
+                               "only far around; they are left out");
         return {mark(input, std::move(embedded)), std::move(pieces), std::move(warnings)};
     } catch (const LogicError& error) {
         warnings.push_back(std::string("the network could not be embedded (") + error.what() +

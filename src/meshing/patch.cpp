@@ -17,8 +17,6 @@ constexpr double kAim = 0.59;                         ///< radians (34 degrees)
 constexpr double kAimCosine = 0.83094;                ///< its cosine
 constexpr double kFirstStep = 0.2, kLastStep = 0.01;  ///< of a move, in targets
 constexpr int kRounds = 4;
-constexpr double kNegligible = 1e-6;  ///< in reaches: no deviation
-constexpr double kBehind = 0.5;       ///< cosine that the normals behind a wall reverse by
 
 }  // namespace
 
@@ -77,8 +75,8 @@ double Patch::penalty() const {
     return sum;
 }
 
-Deviation Patch::deviation() const {
-    Deviation worst;
+double Patch::deviation() const {
+    double worst = 0;
     for (const int f : faces()) {
         const auto [ia, ib, ic] = mesh_.corners(f);
         const Vec3 &a = mesh_.point(ia), &b = mesh_.point(ib), &c = mesh_.point(ic);
@@ -87,13 +85,7 @@ Deviation Patch::deviation() const {
         for (const Vec3& p : {Vec3((a + b + c) / 3), Vec3(0.5 * (a + b)), Vec3(0.5 * (b + c)),
                               Vec3(0.5 * (c + a))}) {
             const ReferencePoint near = reference_.closest(p, normal, reach, mesh_.place(ia));
-            const double distance = near.face < 0 ? reach : near.distance;
-            worst.distance = std::max(worst.distance, distance);
-            if (distance <= kNegligible * reach) continue;
-            const ReferencePoint behind = reference_.closest(p, -normal, reach, -1, kBehind);
-            if (behind.face < 0) continue;
-            worst.share_of_wall =
-                std::max(worst.share_of_wall, distance / std::max(behind.distance, 1e-300));
+            worst = std::max(worst, near.face < 0 ? reach : near.distance);
         }
     }
     return worst;

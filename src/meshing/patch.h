@@ -17,12 +17,6 @@ struct PatchLimits {
     double deviation = 0.04;  ///< from the reference, in targets, where it is not larger already
 };
 
-/// Distance from the reference: the largest, and the largest as a share of the distance to the
-/// sheet behind, which a thin wall must not come near.
-struct Deviation {
-    double distance = 0, share_of_wall = 0;
-};
-
 /// A piece of a mesh around a face, in which trial changes take place: two rings of faces, of which
 /// the inner one's vertices may move. Uses the mesh's journal.
 class Patch {
@@ -34,8 +28,8 @@ public:
     void gather(int face);
     /// Sum of the penalties of what is in the patch now.
     double penalty() const;
-    /// Of the faces' centres and edges' middles.
-    Deviation deviation() const;
+    /// Largest distance of the faces' centres and edges' middles from the reference.
+    double deviation() const;
     /// Flips and moves that lower the penalty, for some rounds.
     void relax();
     /// Faces now in the patch, with those that changes made.

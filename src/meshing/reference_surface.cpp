@@ -145,6 +145,48 @@ double ReferenceSurface::add_cones(int index) {
     return half;
 }
 
+bool ReferenceSurface::is_any_facing(const Vec3& point, const Vec3& normal, double reach,
+                                     double least_cosine) const {
+    const double square_reach = reach * reach;
+    const double wide_sine = std::sqrt(std::max(0.0, 1 - least_cosine * least_cosine));
+    const auto is_worth = [&](std::size_t index) {
+        double gaps = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double x = point[static_cast<int>(k)];
+            const double gap = std::max({nodes_[index].low[k] - x, x - nodes_[index].high[k], 0.0});
+            gaps += gap * gap;
+        }
+        if (gaps >= square_reach) return false;
+        const Cone& cone = cones_[index];
+        const double sine = cone.sine * least_cosine + cone.cosine * wide_sine;
+        if (!(sine > 0)) return true;  // together half a turn and more
+        const double along =
+            cone.axis[0] * normal[0] + cone.axis[1] * normal[1] + cone.axis[2] * normal[2];
+        return along >= cone.cosine * least_cosine - cone.sine * wide_sine;
+    };
+    std::array<std::size_t, kMaxDepth> stack;
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const std::size_t index = stack[--depth];
+        if (!is_worth(index)) continue;
+        const Node& node = nodes_[index];
+        if (node.count == 0) {
+            stack[depth++] = static_cast<std::size_t>(node.begin);
+            stack[depth++] = index + 1;
+            continue;
+        }
+        for (int k = 0; k < node.count; ++k) {
+            const auto i = static_cast<std::size_t>(node.begin + k);
+            if (!(normals_[i].dot(normal) > least_cosine)) continue;
+            const Triangle& t = triangles_[i];
+            if ((closest_in_triangle(t.a, t.ab, t.ac, point) - point).squaredNorm() < square_reach)
+                return true;
+        }
+    }
+    return false;
+}
+
 /// Builds the subtree over items [begin, end), which it reorders; returns its node.
 int ReferenceSurface::build(std::vector<Item>& items, int begin, int end) {
     const int index = static_cast<int>(nodes_.size());

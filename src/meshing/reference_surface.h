@@ -15,7 +15,7 @@ struct ReferencePoint {
 };
 
 /// The surface that remeshing projects to, for millions of queries from points whose sheet is
-/// known: a tree of boxes over copies of the triangles, about 110 bytes a face. Queries are const
+/// known: a tree of boxes over copies of the triangles, about 120 bytes a face. Queries are const
 /// and thread-safe; ties go to the triangle met first, which the tree alone decides.
 class ReferenceSurface {
 public:
@@ -28,6 +28,10 @@ public:
     /// nothing but ties.
     ReferencePoint closest(const Vec3& point, const Vec3& normal, double reach, int hint,
                            double least_cosine = kSameSheet) const;
+
+    /// Whether anything within `reach` has a unit normal m with m . normal > least_cosine.
+    bool is_any_facing(const Vec3& point, const Vec3& normal, double reach,
+                       double least_cosine) const;
 
     /// Unit; zero where degenerate.
     const Vec3& normal(int face) const { return normals_[slot(face)]; }

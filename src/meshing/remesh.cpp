@@ -1,13 +1,14 @@
-// Remeshing with a network, all of it: embed the network, remesh incrementally with its segments
-// fixed (incremental_remeshing.h), say what did not become an edge. For L = 1.2 rmin the segments
+// Remeshing with a network, all of it: embed the network, remesh with its segments fixed
+// (adaptive_remeshing.h), say what did not become an edge. For L = 1.2 rmin the segments
 // of an adapted network lie in the interval of lengths that the remesher leaves alone.
 #include "meshing/remesh.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
+#include "meshing/adaptive_remeshing.h"
 #include "meshing/curvature_sizing.h"
-#include "meshing/incremental_remeshing.h"
 #include "meshing/network_embedding.h"
 #include "meshing/remesh_output.h"
 
@@ -33,17 +34,29 @@ RemeshResult remesh_triangles(const LoadedMesh& mesh, const FeatureCurveNetwork&
     const EdgeTarget target =
         options.curvature_tolerance > 0
             ? target_by_curvature(mesh.mesh, options.edge_length, options.curvature_tolerance)
-            : EdgeTarget{options.edge_length, {}};
+            : EdgeTarget{options.edge_length, {}, {}, {}};
     IncrementalOptions incremental;
     incremental.iterations = options.iterations;
     incremental.is_improving = options.is_improving_angles;
-    const IncrementalStatistics statistics =
-        remesh_incrementally(work.mesh, reference, target, incremental);
-    result.statistics.coarsening = statistics.coarsening;
-    result.statistics.iterating = statistics.iterating;
-    result.statistics.improving = statistics.improving;
-    result.statistics.bad_faces_before = statistics.angles.bad_before;
-    result.statistics.bad_faces_after = statistics.angles.bad_after;
+    AdaptiveStatistics statistics;
+    if (options.is_improving_angles) {
+        statistics =
+            remesh_adaptively(work.mesh, reference, mesh.mesh, network, target, incremental);
+    } else {
+        coarsen_early(work.mesh, target, reference);
+        statistics.incremental = remesh_incrementally(work.mesh, reference, target, incremental);
+    }
+    result.statistics.coarsening = statistics.incremental.coarsening;
+    result.statistics.iterating = statistics.incremental.iterating;
+    result.statistics.improving = statistics.incremental.improving;
+    result.statistics.repairing = statistics.repairing;
+    result.statistics.attempts = std::max(1, statistics.attempts);
+    result.statistics.repair_rounds = statistics.repair.rounds;
+    result.new_intersections = statistics.crossings;
+    for (const auto& [position, size] : statistics.refined)
+        result.refined_places.push_back({position, size});
+    result.statistics.bad_faces_before = statistics.incremental.angles.bad_before;
+    result.statistics.bad_faces_after = statistics.incremental.angles.bad_after;
     report_broken(work, network, result);
     fill_output(mesh, work.mesh.to_marked_mesh(), result);
     result.seconds = seconds();

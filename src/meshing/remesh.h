@@ -19,7 +19,7 @@ struct RemeshOptions {
     int iterations = 10;     ///< in 1 .. 1000
     /// Protect the network's segments (or dense arcs if it has none); false: plain remeshing.
     bool is_protecting = true;
-    bool is_improving_angles = true;  ///< the phase for the smallest angles
+    bool is_improving_angles = true;  ///< the phases for small angles and other faults
     /// > 0: edges are as long as lets the surface deviate from them by this share of L, within
     /// [L / 1.2, 1.25 L]; 0: one length everywhere.
     double curvature_tolerance = 0;
@@ -28,8 +28,16 @@ struct RemeshOptions {
 
 struct RemeshStatistics {
     std::size_t bad_faces_before = 0, bad_faces_after = 0;  ///< under 31 degrees, not forced
+    int attempts = 1;                                       ///< at the whole mesh
+    int repair_rounds = 0;                                  ///< where it had faults
     /// Seconds of the phases.
-    double embedding = 0, coarsening = 0, iterating = 0, improving = 0;
+    double embedding = 0, coarsening = 0, iterating = 0, improving = 0, repairing = 0;
+};
+
+/// A place where edges had to be shorter than asked for.
+struct RefinedPlace {
+    Vec3 position = Vec3::Zero();
+    double edge_length = 0;  ///< there, growing with the distance
 };
 
 struct RemeshResult {
@@ -40,13 +48,17 @@ struct RemeshResult {
     std::vector<int> broken_segments;
     /// Faces whose smallest angle lies between two protected edges and is under 30 degrees.
     std::vector<int> forced_faces;
+    /// Pairs of faces that intersect, away from where the input's do; own remesher only.
+    std::size_t new_intersections = 0;
+    std::vector<RefinedPlace> refined_places;
     std::vector<std::string> warnings;
     RemeshStatistics statistics;
     double seconds = 0;
 };
 
 /// Incremental isotropic remeshing with the network embedded in the mesh and protected. Topology,
-/// boundaries, labels stay. Deterministic. Throws InputError.
+/// boundaries, labels stay, and no triangles come to cross. Where the edge length cannot carry the
+/// surface edges get shorter, down to an eighth of it. Deterministic. Throws InputError.
 RemeshResult remesh_triangles(const LoadedMesh& mesh, const FeatureCurveNetwork& network,
                               const RemeshOptions& options);
 

@@ -46,7 +46,7 @@ RemeshResult remesh_with_cgal(const LoadedMesh& mesh, const FeatureCurveNetwork&
     const auto start = std::chrono::steady_clock::now();
     RemeshResult result;
     const ReferenceSurface reference(mesh.mesh);
-    const EdgeTarget target{options.edge_length, {}};
+    const EdgeTarget target{options.edge_length, {}, {}, {}};
     MarkedMesh marked;
     if (options.is_protecting) {
         NetworkInMesh embedded = embed_network(mesh, network, options.edge_length, reference);

@@ -3,6 +3,7 @@
 // surface. Both are one step here, vertex by vertex, each seeing where the ones before it went: a
 // move is checked where it ends, and halved while a face would turn or become a needle. A vertex
 // that lies on the surface and would hardly move stays.
+#include "meshing/crossing_guard.h"
 #include "meshing/remeshing_steps.h"
 #include "meshing/triangle_shape.h"
 
@@ -52,6 +53,7 @@ bool keeps_faces(const WorkingMesh& mesh, int v, const Vec3& target, double wors
 }  // namespace
 
 void smooth(WorkingMesh& mesh, const ReferenceSurface& reference, const EdgeTarget& target) {
+    CrossingGuard guard(mesh, target.length);
     for (int v = 0; v < mesh.vertex_end(); ++v) {
         if (!mesh.is_vertex_alive(v) || !mesh.is_free(v)) continue;
         const Star star = measure_star(mesh, v);
@@ -63,9 +65,12 @@ void smooth(WorkingMesh& mesh, const ReferenceSurface& reference, const EdgeTarg
         for (int halving = 0; halving <= kMaxHalvings; ++halving, move *= 0.5) {
             const ReferencePoint there = reference.closest(mesh.point(v) + move, star.normal,
                                                            kReach * length, mesh.place(v));
-            if (there.face < 0 || !keeps_faces(mesh, v, there.position, star.worst)) continue;
+            if (there.face < 0 || !keeps_faces(mesh, v, there.position, star.worst) ||
+                !guard.allows_move(v, there.position))
+                continue;
             mesh.set_point(v, there.position);
             mesh.set_place(v, there.face);
+            guard.update_star(v);
             break;
         }
     }

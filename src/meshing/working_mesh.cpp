@@ -166,7 +166,8 @@ int WorkingMesh::split(int h, const Vec3& p) {
     const int t = twin(h), hn = next(h), b = to(h), c = apex(h);
     const int role = roles_[at(h)];
     const std::uint8_t flags =
-        static_cast<std::uint8_t>(kAfloat | (role != 0 ? kOnCurve : 0) | (t < 0 ? kOnBoundary : 0));
+        static_cast<std::uint8_t>(kAfloat | (role != 0 ? kOnCurve : 0) | (t < 0 ? kOnBoundary : 0) |
+                                  ((flags_[at(from(h))] | flags_[at(b)]) & kThin));
     const int m = add_vertex(p, flags, place(from(h)));
     // Face abc becomes amc; mbc is new.
     const int n = add_face(m, b, c, label(face(h)));

@@ -49,10 +49,14 @@ public:
     EdgeRole role(int h) const { return static_cast<EdgeRole>(roles_[at(h)]); }
     bool is_marked(int h) const { return roles_[at(h)] != 0; }
     int label(int f) const { return labels_[at(f)]; }
-    bool is_fixed(int v) const { return (flags_[at(v)] & kFixed) != 0; }
+    bool is_fixed(int v) const { return (flags_[at(v)] & (kFixed | kResting)) != 0; }
+    /// Fixed for the time being.
+    bool is_resting(int v) const { return (flags_[at(v)] & kResting) != 0; }
     bool is_on_curve(int v) const { return (flags_[at(v)] & kOnCurve) != 0; }
     bool is_on_boundary(int v) const { return (flags_[at(v)] & kOnBoundary) != 0; }
-    bool is_free(int v) const { return (flags_[at(v)] & (kFixed | kOnCurve | kOnBoundary)) == 0; }
+    bool is_free(int v) const {
+        return (flags_[at(v)] & (kFixed | kResting | kOnCurve | kOnBoundary)) == 0;
+    }
     /// A face of the reference surface near the vertex; -1: unknown.
     int place(int v) const { return places_[at(v)]; }
     /// False from a split until the vertex is placed.
@@ -65,6 +69,20 @@ public:
     }
     void set_role(int h, EdgeRole role);
     void fix(int v) { flags_[at(v)] |= kFixed; }
+    void release(int v) { flags_[at(v)] &= static_cast<std::uint8_t>(~kFixed); }
+    void set_resting(int v, bool is_resting) {
+        flags_[at(v)] = static_cast<std::uint8_t>(is_resting ? flags_[at(v)] | kResting
+                                                             : flags_[at(v)] & ~kResting);
+    }
+    /// Whether another sheet is near (crossing_guard.h says when).
+    bool is_thin(int v) const { return (flags_[at(v)] & kThin) != 0; }
+    void set_thin(int v, bool is_thin) {
+        flags_[at(v)] =
+            static_cast<std::uint8_t>(is_thin ? flags_[at(v)] | kThin : flags_[at(v)] & ~kThin);
+    }
+    /// Whether all ends of an edge, or corners of a face, rest.
+    bool is_edge_resting(int h) const { return is_resting(from(h)) && is_resting(to(h)); }
+    bool is_face_resting(int f) const { return is_edge_resting(3 * f) && is_resting(apex(3 * f)); }
 
     /// Calls visit(h) for the halfedges out of v, counter-clockwise, one a face, until it returns
     /// false; returns whether it never did.
@@ -122,7 +140,14 @@ public:
     MarkedMesh to_marked_mesh() const;
 
 private:
-    enum Flag : std::uint8_t { kFixed = 1, kOnCurve = 2, kOnBoundary = 4, kAfloat = 8 };
+    enum Flag : std::uint8_t {
+        kFixed = 1,
+        kOnCurve = 2,
+        kOnBoundary = 4,
+        kAfloat = 8,
+        kResting = 16,
+        kThin = 32
+    };
     enum class Array : std::uint8_t { From, Twin, Out, Role };
     struct Change {
         Array array;

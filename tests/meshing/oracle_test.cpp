@@ -5,9 +5,14 @@
 #include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
 #include "geometry/models.h"
 #include "meshing/measure.h"
 #include "meshing/remesh.h"
+#include "meshing/self_intersections.h"
 #include "sample_meshes.h"
 #include "sample_networks.h"
 
@@ -33,7 +38,7 @@ SurfaceMesh to_cgal(const Mesh& mesh) {
     return result;
 }
 
-std::size_t self_intersections(const Mesh& mesh) {
+std::size_t oracle_intersections(const Mesh& mesh) {
     const SurfaceMesh surface = to_cgal(mesh);
     std::vector<std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>> pairs;
     pmp::self_intersections(surface, std::back_inserter(pairs));
@@ -63,7 +68,7 @@ TEST(RemeshOracle, NoSelfIntersectionsAreIntroduced) {
                                                      {test::cylinder(0.5, 48, 12), 0.12},
                                                      {test::cylinder(0.05, 24, 8), 0.06}};
     for (const auto& [mesh, rmin] : cases) {
-        ASSERT_EQ(self_intersections(mesh.mesh), 0U);
+        ASSERT_EQ(oracle_intersections(mesh.mesh), 0U);
         const FeatureCurveNetwork network =
             test::cut_evenly(test::crease_network(mesh.mesh, 0.7), rmin);
         RemeshOptions options;
@@ -71,9 +76,89 @@ TEST(RemeshOracle, NoSelfIntersectionsAreIntroduced) {
         for (const bool is_protecting : {true, false}) {
             options.is_protecting = is_protecting;
             const RemeshResult result = remesh_triangles(mesh, network, options);
-            EXPECT_EQ(self_intersections(result.mesh.mesh), 0U) << "rmin " << rmin;
+            EXPECT_EQ(oracle_intersections(result.mesh.mesh), 0U) << "rmin " << rmin;
         }
     }
+}
+
+TEST(SelfIntersections, AgreeWithCgal) {
+    // Spheres whose vertices were shaken until sheets cross, folded and pierced pairs among them.
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        std::mt19937_64 engine(seed);
+        std::uniform_real_distribution<double> shake(-0.25, 0.25);
+        Mesh mesh = test::sphere(1, 2);
+        for (const VertexHandle v : mesh.vertices())
+            if (engine() % 4 == 0)
+                mesh.set_point(v,
+                               mesh.point(v) + Vec3(shake(engine), shake(engine), shake(engine)));
+        const auto pairs = self_intersections(mesh);
+        EXPECT_EQ(pairs.size(), oracle_intersections(mesh));
+        EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
+    }
+}
+
+/// A tube with walls: `sides` around, inner and outer radius, open rims closed.
+LoadedMesh thin_tube(int sides, double inner, double outer, double height, int rows) {
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
+    const int ring = 2 * rows;  // outer rows upwards, then inner rows downwards
+    for (int k = 0; k < ring; ++k) {
+        const bool is_outer = k < rows;
+        const int row = is_outer ? k : ring - 1 - k;
+        const double radius = is_outer ? outer : inner;
+        for (int i = 0; i < sides; ++i) {
+            const double angle = 2 * M_PI * i / sides;
+            points.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
+                                height * row / (rows - 1));
+        }
+    }
+    for (int k = 0; k < ring; ++k)
+        for (int i = 0; i < sides; ++i) {
+            const int a = k * sides + i, b = k * sides + (i + 1) % sides;
+            const int c = (k + 1) % ring * sides + (i + 1) % sides, d = (k + 1) % ring * sides + i;
+            triangles.push_back({a, b, c});
+            triangles.push_back({a, c, d});
+        }
+    return mesh_from_soup(points, triangles);
+}
+
+TEST(RemeshOracle, ThinTubeKeepsItsWallsApart) {
+    // Edges of 0.5 on a circle of radius 0.5: their sagitta is three times the wall.
+    const LoadedMesh tube = thin_tube(96, 0.48, 0.5, 1, 17);
+    ASSERT_EQ(oracle_intersections(tube.mesh), 0U);
+    const FeatureCurveNetwork creases = test::crease_network(tube.mesh, 0.7);
+    for (const double rmin : {0.1, 0.2, 0.4}) {
+        RemeshOptions options;
+        options.edge_length = 1.2 * rmin;
+        const RemeshResult result =
+            remesh_triangles(tube, test::cut_evenly(creases, rmin), options);
+        EXPECT_EQ(oracle_intersections(result.mesh.mesh), 0U) << "rmin " << rmin;
+        EXPECT_EQ(result.new_intersections, 0U);
+    }
+}
+
+TEST(RemeshOracle, TipsOfThinSpikesStay) {
+    // Eight spikes on a sphere, as long as two edges and thinner than one.
+    Mesh mesh = test::sphere(1, 4);
+    for (const VertexHandle v : mesh.vertices()) {
+        const Vec3 p = mesh.point(v);
+        const double toward = p.cwiseAbs().sum() / std::sqrt(3.0);
+        mesh.set_point(v, p * (1 + std::clamp((toward - 0.985) / 0.015, 0.0, 1.0)));
+    }
+    LoadedMesh spiked;
+    spiked.mesh = mesh;
+    RemeshOptions options;
+    options.edge_length = 0.5;
+    options.is_protecting = false;
+    const RemeshResult result = remesh_triangles(spiked, {}, options);
+    EXPECT_LT(measure_distance(result.mesh.mesh, mesh, 0.05).backward, 0.3);
+    EXPECT_FALSE(result.refined_places.empty());
+    for (const RefinedPlace& place : result.refined_places) {
+        EXPECT_LT(place.edge_length, options.edge_length);
+        EXPECT_GE(place.edge_length, 0.1 * options.edge_length);
+    }
+    EXPECT_EQ(oracle_intersections(result.mesh.mesh), 0U);
 }
 
 TEST(RemeshOracle, ThinPlateKeepsItsSidesApart) {
@@ -88,7 +173,7 @@ TEST(RemeshOracle, ThinPlateKeepsItsSidesApart) {
     RemeshOptions options;
     options.edge_length = 0.3;
     const RemeshResult result = remesh_triangles(plate, network, options);
-    EXPECT_EQ(self_intersections(result.mesh.mesh), 0U);
+    EXPECT_EQ(oracle_intersections(result.mesh.mesh), 0U);
     EXPECT_LT(measure_distance(result.mesh.mesh, plate.mesh, 0.05).hausdorff, 0.051);
 }
 

@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
 #include <random>
 
 #include "geometry/surface_queries.h"
+#include "meshing/crossing_guard.h"
 #include "meshing/reference_surface.h"
+#include "meshing/self_intersections.h"
+#include "meshing/size_sources.h"
 #include "sample_meshes.h"
 
 namespace fcn {
@@ -129,6 +134,88 @@ TEST(WorkingMesh, CurvesAreNeitherFlippedNorLost) {
                                              mesh.label(WorkingMesh::face(mesh.twin(h))));
         }
         EXPECT_GE(marked, 3);
+    }
+}
+
+TEST(SizeSources, LimitIsTheLeastOverAllSources) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        std::mt19937_64 engine(seed);
+        std::uniform_real_distribution<double> place(-5, 5), size(0.1, 1);
+        SizeSources sources(1);
+        const auto point = [&] { return Vec3(place(engine), place(engine), place(engine)); };
+        for (int i = 0; i < 60; ++i) sources.add(point(), size(engine));
+        for (int i = 0; i < 500; ++i) {
+            const Vec3 p = point();
+            double least = std::numeric_limits<double>::infinity();
+            for (const auto& [position, own] : sources.sources())
+                least = std::min(least, own + SizeSources::kGrowth * (position - p).norm());
+            if (least < SizeSources::kFarthest)
+                EXPECT_EQ(sources.limit(p), least);
+            else
+                EXPECT_FALSE(sources.is_near(p));
+        }
+    }
+}
+
+TEST(CrossingGuard, RefusesExactlyTheMovesThatMakeTrianglesCross) {
+    // Two sheets, one above the other; vertices of the lower one are moved up and down.
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
+    for (const double height : {0.0, 0.1}) {
+        const Mesh sheet = test::rectangle(1, 1, 6, 6);
+        const int first = static_cast<int>(points.size());
+        for (const VertexHandle v : sheet.vertices())
+            points.push_back(sheet.point(v) + Vec3(0, 0, height));
+        for (const FaceHandle f : sheet.faces()) {
+            auto v = face_vertices(sheet, f);
+            if (height > 0) std::swap(v[1], v[2]);
+            triangles.push_back({first + v[0].idx(), first + v[1].idx(), first + v[2].idx()});
+        }
+    }
+    std::vector<std::array<Vec3, 3>> corners;
+    for (const auto& [a, b, c] : triangles)
+        corners.push_back({points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)],
+                           points[static_cast<std::size_t>(c)]});
+    WorkingMesh mesh(points, triangles, {});
+    const ReferenceSurface reference(corners);
+    for (const double reach : {0.01, 0.11}) {
+        mark_thin_places(mesh, reference, reach);
+        for (int v = 0; v < mesh.vertex_end(); ++v) EXPECT_EQ(mesh.is_thin(v), reach > 0.1);
+    }
+    CrossingGuard guard(mesh, 0.2);
+    std::mt19937_64 engine(1);
+    std::uniform_real_distribution<double> shift(-0.3, 0.3);
+    int refused = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        const int v = static_cast<int>(engine() % points.size());
+        const Vec3 there =
+            mesh.point(v) + Vec3(0.2 * shift(engine), 0.2 * shift(engine), shift(engine));
+        const bool is_allowed = guard.allows_move(v, there);
+        std::vector<Vec3> moved;
+        for (int u = 0; u < mesh.vertex_end(); ++u) moved.push_back(mesh.point(u));
+        moved[static_cast<std::size_t>(v)] = there;
+        EXPECT_EQ(is_allowed, self_intersections(moved, triangles).empty()) << "trial " << trial;
+        refused += !is_allowed;
+        if (!is_allowed) continue;
+        mesh.set_point(v, there);
+        guard.update_star(v);
+    }
+    EXPECT_GT(refused, 20);
+    EXPECT_LT(refused, 280);
+}
+
+TEST(ReferenceSurface, FacingAgreesWithTryingAll) {
+    const Mesh mesh = test::sphere(1, 2);
+    const ReferenceSurface reference(mesh);
+    std::mt19937_64 engine(3);
+    std::uniform_real_distribution<double> place(-1.5, 1.5), reach(0.05, 1), cosine(-0.5, 0.9);
+    for (int i = 0; i < 400; ++i) {
+        const Vec3 point(place(engine), place(engine), place(engine));
+        const Vec3 normal = Vec3(place(engine), place(engine), place(engine)).normalized();
+        const double radius = reach(engine), least = cosine(engine);
+        EXPECT_EQ(reference.is_any_facing(point, normal, radius, least),
+                  reference.closest(point, normal, radius, -1, least).face >= 0);
     }
 }
 
