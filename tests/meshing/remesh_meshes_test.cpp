@@ -24,10 +24,12 @@ std::vector<std::filesystem::path> mesh_files() {
     return files;
 }
 
-void check_all(double share, bool is_adapted) {
+/// Every third mesh, so that each is remeshed in one way.
+void check_some(std::size_t first, double share, bool is_adapted) {
     const auto files = mesh_files();
     if (files.empty()) GTEST_SKIP() << "no shared meshes here";
-    for (const auto& file : files) {
+    for (std::size_t i = first; i < files.size(); i += 3) {
+        const auto& file = files[i];
         SCOPED_TRACE(file.filename().string());
         const LoadedMesh mesh = read_mesh(file);
         const double rmin = share * bounding_box(mesh.mesh).diagonal();
@@ -46,9 +48,9 @@ void check_all(double share, bool is_adapted) {
     }
 }
 
-TEST(RemeshMeshes, CutArcsAtTwoPercent) { check_all(0.02, true); }
-TEST(RemeshMeshes, CutArcsAtSixPercent) { check_all(0.06, true); }
-TEST(RemeshMeshes, EveryCreaseAtThreePercent) { check_all(0.03, false); }
+TEST(RemeshMeshes, CutArcsAtTwoPercent) { check_some(0, 0.02, true); }
+TEST(RemeshMeshes, CutArcsAtSixPercent) { check_some(1, 0.06, true); }
+TEST(RemeshMeshes, EveryCreaseAtThreePercent) { check_some(2, 0.03, false); }
 
 }  // namespace
 }  // namespace fcn
