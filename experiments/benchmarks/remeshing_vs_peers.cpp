@@ -1,5 +1,5 @@
 // Our remesher beside others, in one run:
-//   remeshing_vs_peers MESH... [--scales 1,2,3,5,8] [--ways own,cgal,...]
+//   remeshing_vs_peers MESH... [--scales 1,2,4,6,8] [--ways own,cgal,...]
 //                      [--peer meshlab=COMMAND] [--folder DIR] [--csv FILE]
 // Features are sharp edges (of more than 18 degrees, chains with one of 40) and boundaries; each
 // scale, in percent of the diagonal, is adapted to once. A peer's COMMAND is started as
@@ -30,6 +30,7 @@
 #include "geometry/models.h"
 #include "labeling_mip/mip_solvers.h"
 #include "meshing/comparison.h"
+#include "meshing/self_intersections.h"
 
 namespace {
 
@@ -37,7 +38,7 @@ using namespace fcn;
 
 struct Arguments {
     std::vector<std::string> meshes, ways, peers;
-    std::vector<double> scales{1, 2, 3, 5, 8};
+    std::vector<double> scales{1, 2, 4, 6, 8};
     std::string csv, folder = "remeshes", speed_mesh;
     std::size_t faces = 100000;
     int iterations = 10;
@@ -47,6 +48,7 @@ struct Arguments {
 struct Case {
     std::string mesh;
     double scale = 0, edge_length = 0, diagonal = 0;
+    std::size_t input_intersections = 0;
     std::map<std::string, ComparisonRow> rows;
 };
 
@@ -86,13 +88,13 @@ ComparisonRow run_peer(const std::string& peer, const ComparisonInput& input,
 
 void print_csv(std::FILE* file, const Case& which, const ComparisonRow& row) {
     std::fprintf(
-        file, "%s,%g,%s,%s,%zu,%.3f,%.3f,%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%zu,%zu,%.3f\n",
+        file, "%s,%g,%s,%s,%zu,%.3f,%.3f,%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%zu,%zu,%zu,%.3f\n",
         which.mesh.c_str(), which.scale, row.name.c_str(), row.failure.empty() ? "ok" : "failed",
         row.quality.faces, row.quality.min_angle_degrees, row.quality.mean_min_angle_degrees,
         row.quality.share_under_15, row.quality.share_under_30,
         row.distance.hausdorff / which.diagonal, row.distance.mean_forward / which.diagonal,
         row.features.max / which.edge_length, row.features.mean / which.edge_length,
-        row.broken_segments, row.forced_faces, row.cpu_seconds);
+        row.broken_segments, row.forced_faces, row.self_intersections, row.cpu_seconds);
     std::fflush(file);
 }
 
@@ -106,6 +108,7 @@ Case run_case(const std::string& name, const LoadedMesh& mesh, const FeatureCurv
     result.mesh = std::filesystem::path(name).stem().string();
     result.scale = percent;
     result.diagonal = bounding_box(mesh.mesh).diagonal();
+    result.input_intersections = self_intersections(mesh.mesh).size();
     AdaptationOptions adaptation;
     adaptation.rmin = percent / 100 * result.diagonal;
     adaptation.solver = labeling::all_solvers().find("auto");
@@ -153,13 +156,22 @@ std::vector<double> collect(const std::vector<Case>& cases, const std::string& w
 void print_summary(const std::vector<Case>& cases, const std::vector<std::string>& ways) {
     std::printf(
         "| way | runs | failed | smallest angle: least | median | under 25: runs | under 30: runs "
-        "| under 15: triangles | under 30: share | Hausdorff/diag | mean/diag | curves/L | "
-        "mean curves/L | CPU s |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+        "| under 15: triangles | under 30: share | crossings: runs | pairs | Hausdorff/diag | "
+        "mean/diag | curves/L | mean curves/L | faces | CPU s |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    // Angles that two curves of the input force are left out where it is known that there are no
+    // others.
     const Value angle = [](const Case&, const ComparisonRow& r) {
-        return r.quality.min_angle_degrees;
+        const double under_30 = r.quality.share_under_30 * static_cast<double>(r.quality.faces);
+        const bool is_all_forced =
+            r.forced_faces > 0 && std::lround(under_30) <= std::lround(1.0 * r.forced_faces);
+        return is_all_forced ? std::max(30.0, r.quality.min_angle_degrees)
+                             : r.quality.min_angle_degrees;
     };
     for (const std::string& way : ways) {
         const std::vector<double> angles = collect(cases, way, angle);
+        int crossing_runs = 0;
+        std::size_t crossings = 0;
         const auto middle = [&](const Value& value) { return median(collect(cases, way, value)); };
         double slivers = 0, seconds = 0, under_30 = 0, faces = 0;
         for (const Case& one : cases) {
@@ -170,18 +182,22 @@ void print_summary(const std::vector<Case>& cases, const std::vector<std::string
             under_30 += std::round(q.share_under_30 * static_cast<double>(q.faces));
             faces += static_cast<double>(q.faces);
             seconds += it->second.cpu_seconds;
+            const std::size_t pairs = it->second.self_intersections;
+            if (pairs <= one.input_intersections) continue;
+            ++crossing_runs;
+            crossings += pairs - one.input_intersections;
         }
         const auto below = [&](double limit) {
             return std::count_if(angles.begin(), angles.end(),
                                  [&](double value) { return value < limit; });
         };
         std::printf(
-            "| %s | %zu | %zu | %.2f | %.2f | %td | %td | %.0f | %.4f %% | %.5f | %.6f | %.4f | "
-            "%.4f | %.1f |\n",
+            "| %s | %zu | %zu | %.2f | %.2f | %td | %td | %.0f | %.4f %% | %d | %zu | %.5f | "
+            "%.6f | %.4f | %.4f | %.0f | %.1f |\n",
             way.c_str(), angles.size(), cases.size() - angles.size(),
             angles.empty() ? 0 : *std::min_element(angles.begin(), angles.end()), median(angles),
-            below(25), below(30), slivers, 100 * under_30 / std::max(1.0, faces),
-            middle([](const Case& c, const ComparisonRow& r) {
+            below(25), below(30), slivers, 100 * under_30 / std::max(1.0, faces), crossing_runs,
+            crossings, middle([](const Case& c, const ComparisonRow& r) {
                 return r.distance.hausdorff / c.diagonal;
             }),
             middle([](const Case& c, const ComparisonRow& r) {
@@ -193,22 +209,33 @@ void print_summary(const std::vector<Case>& cases, const std::vector<std::string
             middle([](const Case& c, const ComparisonRow& r) {
                 return r.features.mean / c.edge_length;
             }),
-            seconds);
+            faces, seconds);
     }
 }
 
 void print_bad_cases(const std::vector<Case>& cases) {
     std::printf(
         "\nCases in which `own` has a triangle under 30 degrees:\n\n"
-        "| mesh | scale | smallest angle | under 30 | of them forced | segments not one "
-        "edge |\n|---|---|---|---|---|---|\n");
+        "| mesh | scale | smallest angle | under 30 | of them forced |\n|---|---|---|---|---|\n");
     for (const Case& one : cases) {
         const auto it = one.rows.find("own");
         if (it == one.rows.end() || it->second.quality.share_under_30 <= 0) continue;
         const TriangleQuality& q = it->second.quality;
-        std::printf("| %s | %g %% | %.2f | %.0f | %zu | %zu |\n", one.mesh.c_str(), one.scale,
+        std::printf("| %s | %g %% | %.2f | %.0f | %zu |\n", one.mesh.c_str(), one.scale,
                     q.min_angle_degrees, q.share_under_30 * static_cast<double>(q.faces),
-                    it->second.forced_faces, it->second.broken_segments);
+                    it->second.forced_faces);
+    }
+}
+
+void print_cut_cases(const std::vector<Case>& cases) {
+    std::printf(
+        "\nCases in which a segment is not a single edge in `own`:\n\n| mesh | scale | segments |\n"
+        "|---|---|---|\n");
+    for (const Case& one : cases) {
+        const auto it = one.rows.find("own");
+        if (it != one.rows.end() && it->second.broken_segments > 0)
+            std::printf("| %s | %g %% | %zu |\n", one.mesh.c_str(), one.scale,
+                        it->second.broken_segments);
     }
 }
 
@@ -243,10 +270,11 @@ void run_corpus(const Arguments& arguments) {
     std::filesystem::create_directories(arguments.folder);
     std::FILE* csv = arguments.csv.empty() ? nullptr : std::fopen(arguments.csv.c_str(), "w");
     if (csv != nullptr)
-        std::fprintf(csv,
-                     "mesh,scale,way,status,faces,min_angle,mean_min_angle,under_15,under_30,"
-                     "hausdorff_over_diagonal,mean_over_diagonal,feature_max_over_l,"
-                     "feature_mean_over_l,broken_segments,forced_faces,cpu_seconds\n");
+        std::fprintf(
+            csv,
+            "mesh,scale,way,status,faces,min_angle,mean_min_angle,under_15,under_30,"
+            "hausdorff_over_diagonal,mean_over_diagonal,feature_max_over_l,"
+            "feature_mean_over_l,broken_segments,forced_faces,self_intersections,cpu_seconds\n");
     std::vector<Case> cases;
     for (const std::string& name : arguments.meshes) {
         const LoadedMesh mesh = load(name);
@@ -261,6 +289,7 @@ void run_corpus(const Arguments& arguments) {
     for (const std::string& peer : arguments.peers) ways.push_back(peer.substr(0, peer.find('=')));
     print_summary(cases, ways);
     print_bad_cases(cases);
+    print_cut_cases(cases);
     std::vector<std::string> rivals;
     for (const std::string& way : ways)
         if (way == "cgal" || way == "cgal-constrained") rivals.push_back(way);
