@@ -138,9 +138,11 @@ int draw(const DrawArguments& arguments) {
     if (mesh.mesh.n_faces() > 0) {
         const SurfaceQueries surface(mesh.mesh);
         const double finest = 0.004 * bounding_box(mesh.mesh).diagonal();
-        for (const DrawnNetwork& drawn : networks)
-            add_layers(drawn, load_network(drawn.path, &mesh.mesh), surface, finest, arguments,
-                       layers);
+        for (const DrawnNetwork& drawn : networks) {
+            // A network that knows its points may be of another mesh, which this one was made of.
+            const Mesh* of = is_lossless_network(drawn.path) ? nullptr : &mesh.mesh;
+            add_layers(drawn, load_network(drawn.path, of), surface, finest, arguments, layers);
+        }
     }
     save_text(arguments.output, render_png(mesh.mesh, layers, options));
     if (arguments.output == "-") return kDone;

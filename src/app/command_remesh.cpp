@@ -9,6 +9,7 @@
 #include "app/inputs.h"
 #include "app/json_summary.h"
 #include "app/outputs.h"
+#include "geometry/errors.h"
 #include "geometry/mesh_curves.h"
 #include "meshing/measure.h"
 #include "meshing/remesh.h"
@@ -37,6 +38,20 @@ Json places_json(const std::vector<RefinedPlace>& places) {
     return json;
 }
 
+/// rmin as asked for, or else that of the adapted network.
+double scale_of(const RemeshArguments& arguments, const LoadedMesh& mesh,
+                const FeatureCurveNetwork& network) {
+    if (arguments.scale.is_given()) {
+        return resolve_scale(arguments.scale.request(), bounding_box(mesh.mesh).diagonal());
+    }
+    if (network.scale <= 0) {
+        throw InputError(arguments.network_path +
+                         ": not an adapted network, so it has no scale; give --scale or "
+                         "--edge-length");
+    }
+    return network.scale;
+}
+
 int remesh(const RemeshArguments& arguments) {
     if (arguments.type == "quad")
         throw UsageError("--type quad is not available in this version; use --type tri");
@@ -45,17 +60,16 @@ int remesh(const RemeshArguments& arguments) {
         if (holds_curves_alone(output) && arguments.network_path.empty())
             throw UsageError(output + ": holds curves alone, and there are none without --network");
     }
-    const ScaleRequest request = arguments.scale.request();
+    if (arguments.network_path.empty() || arguments.scale.is_given()) arguments.scale.request();
     const LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
     RemeshOptions options;
-    options.edge_length =
-        kEdgeLengthFactor * resolve_scale(request, bounding_box(mesh.mesh).diagonal());
     options.iterations = arguments.iterations;
     options.curvature_tolerance = arguments.curvature_tolerance;
     options.is_protecting = !arguments.network_path.empty();
     const FeatureCurveNetwork network = options.is_protecting
                                             ? read_network_for_mesh(arguments.network_path, mesh)
                                             : FeatureCurveNetwork{};
+    options.edge_length = kEdgeLengthFactor * scale_of(arguments, mesh, network);
     RemeshResult result = arguments.with == "cgal" ? remesh_with_cgal(mesh, network, options)
                                                    : remesh_triangles(mesh, network, options);
     for (const std::string& warning : result.warnings) print_warning(arguments.common, warning);
@@ -98,8 +112,10 @@ Command add_remesh_command(CLI::App& program) {
         program.add_subcommand("remesh", "Make a triangle mesh of one edge length on a network");
     parser->add_option("MESH", arguments->input, "Triangle mesh (- for standard input)")
         ->required();
-    parser->add_option("--network", arguments->network_path,
-                       "Network whose curves stay as they are; without one nothing is protected");
+    parser->add_option(
+        "--network", arguments->network_path,
+        "Network whose curves stay as they are; without one nothing is protected. The scale "
+        "of an adapted one holds unless another is given");
     parser
         ->add_option("-o,--output", arguments->outputs,
                      "Mesh file by extension (- for OFF on standard output), several with commas; "
@@ -127,9 +143,9 @@ Command add_remesh_command(CLI::App& program) {
     add_common_arguments(*parser, arguments->common);
     parser->footer(
         "Example:\n"
-        "  scalefcn remesh part.stl --network part_2pct.fcn.json --scale 2% -o part_2pct.obj\n"
-        "  scalefcn remesh part.stl --network part_2pct.fcn.json --scale 2% -o "
-        "part_2pct.mesh,part_2pct.vtp");
+        "  scalefcn remesh part.stl --network part_2pct.fcn.json -o part_2pct.obj\n"
+        "  scalefcn remesh part.stl --network part_2pct.fcn.json -o part_2pct.mesh,part_2pct.vtp\n"
+        "  scalefcn remesh part.stl --edge-length 2.4 -o part_plain.obj");
     return {parser, [arguments] { return remesh(*arguments); }};
 }
 

@@ -44,6 +44,12 @@ class StepByStep(ProgramTest):
         remesh = self.succeed_json("remesh", "ribs.off", "--network", "adapted.fcn.json",
                                    "--scale", "8%", "-o", "remesh.obj")
         self.assertGreater(remesh["triangles"]["faces"], 0)
+        self.succeed("remesh", "ribs.off", "--network", "adapted.fcn.json", "-o", "own_scale.obj")
+        self.assertEqual((self.folder / "own_scale.obj").read_bytes(),
+                         (self.folder / "remesh.obj").read_bytes())
+        refused = self.call("remesh", "ribs.off", "--network", "initial.fcn.json", "-o", "a.obj")
+        self.assertEqual(refused.returncode, 3)
+        self.assertIn("not an adapted network", refused.stderr)
         measure = self.succeed_json("measure", "remesh.obj", "ribs.off")
         self.assertEqual(measure["triangles"]["faces"], remesh["triangles"]["faces"])
         self.assertLess(measure["distance"]["hausdorff_over_diagonal"], 0.08)
