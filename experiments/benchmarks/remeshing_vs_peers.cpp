@@ -39,7 +39,7 @@ using namespace fcn;
 struct Arguments {
     std::vector<std::string> meshes, ways, peers;
     std::vector<double> scales{1, 2, 4, 6, 8};
-    std::string csv, folder = "remeshes", speed_mesh;
+    std::string csv, folder = "build/remeshes", speed_mesh;
     std::size_t faces = 100000;
     int iterations = 10;
     bool is_plain = false;
