@@ -15,9 +15,9 @@ namespace labeling {
 /// cannot be read or its gzip data are damaged or cut short.
 std::string read_text_file(const std::filesystem::path& file);
 
-/// Writes to a hidden name in the same folder (.NAME, a number, .part) and renames; a pipe or device is
-/// written directly, a link stays one. gzip when the name ends in `.gz` (no time stamp inside:
-/// equal text gives equal bytes). Throws InputError naming the file.
+/// Writes to a hidden name in the same folder (.NAME, a number, .part) and renames; a pipe or
+/// device is written directly, a link stays one. gzip when the name ends in `.gz` (no time stamp
+/// inside: equal text gives equal bytes). Throws InputError naming the file.
 void write_text_file(const std::filesystem::path& file, std::string_view text);
 
 /// Splits text into lines and lines into words, and knows where it is.

@@ -14,10 +14,10 @@ struct ExternalProgram {
     std::string name;
     std::string description;
     std::string advice;  ///< how to get it, for the message when it is missing
-    /// Words separated by blanks, "..." or '...' around one that holds blanks. Placeholders: {problem}
-    /// {solution} {start} (files), {time} (seconds, a decimal), {seconds} (whole, at least 1),
-    /// {threads} {seed} {gap} {python} {worker}. What stands in [ ] is left out when one of its
-    /// placeholders has no value (no time limit, no start, no gap).
+    /// Words separated by blanks, "..." or '...' around one that holds blanks. Placeholders:
+    /// {problem} {solution} {start} (files), {time} (seconds, a decimal), {seconds} (whole, at
+    /// least 1), {threads} {seed} {gap} {python} {worker}. What stands in [ ] is left out when one
+    /// of its placeholders has no value (no time limit, no start, no gap).
     std::string command;
     ProblemFormat problem_format = ProblemFormat::Mps;
     AnswerFormat answer_format = AnswerFormat::Columns;

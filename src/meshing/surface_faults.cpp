@@ -19,8 +19,8 @@ constexpr double kSmallAngle = 0.5235987755982988;    ///< 30 degrees
 constexpr double kFar = 0.4;                          ///< in targets
 constexpr double kMostNeedles = 0.05;                 ///< of the faces
 constexpr double kFewNeedles = 40;
-constexpr double kWellInside = 2;   ///< in targets: limits of samples with all faces near them
-constexpr double kOut = 100;         ///< in targets: no nearest point is looked for
+constexpr double kWellInside = 2;  ///< in targets: limits of samples with all faces near them
+constexpr double kOut = 100;       ///< in targets: no nearest point is looked for
 
 std::array<Vec3, 3> points_of(const WorkingMesh& mesh, int face) {
     const auto [a, b, c] = mesh.corners(face);
