@@ -1,7 +1,8 @@
 // The first step of incremental remeshing (Botsch, Kobbelt 2004, section 3): no edge longer than
 // 4/3 of the target. Longest first, so that the halves of a long edge come before shorter edges
-// beside it, whose split would leave needles; for the same reason (and because it would never end)
-// edges beside a longer one that may not be split are left, and those whose middle is a corner.
+// beside it, whose split would leave needles; for the same reason edges beside a longer feature are
+// left, and those whose middle is a corner. Every new edge is shorter than the one it comes of, or
+// beside edges that are left the same points would be made for ever.
 #include <queue>
 
 #include "meshing/remeshing_steps.h"
@@ -9,7 +10,8 @@
 namespace fcn {
 namespace {
 
-constexpr double kTaken = 0.02;  ///< in targets: a middle this near a vertex
+constexpr double kTaken = 0.02;    ///< in targets: a middle this near a vertex
+constexpr double kShorter = 0.99;  ///< share of an edge's length that new edges stay below
 
 struct LongEdge {
     double square;  ///< length over target, squared
@@ -38,13 +40,15 @@ std::size_t split_long_edges(WorkingMesh& mesh, const EdgeTarget& target) {
     };
     // Beside long features flat triangles would breed others, each with its middle on an old
     // vertex.
-    const auto is_middle_taken = [&](int h, const Vec3& middle) {
+    const auto is_splittable = [&](int h, const Vec3& middle) {
+        const double least = kTaken * target.of_edge(mesh, h);
+        const double most = kShorter * (mesh.point(mesh.to(h)) - mesh.point(mesh.from(h))).norm();
         for (const int side : {h, mesh.twin(h)}) {
             if (side < 0) continue;
-            const double least = kTaken * target.of_edge(mesh, h);
-            if ((mesh.point(mesh.apex(side)) - middle).squaredNorm() < least * least) return true;
+            const double length = (mesh.point(mesh.apex(side)) - middle).norm();
+            if (length < least || length > most) return false;
         }
-        return false;
+        return true;
     };
     const auto consider = [&](int h) {
         if (mesh.role(h) == EdgeRole::Feature || mesh.is_edge_resting(h)) return;
@@ -62,7 +66,7 @@ std::size_t split_long_edges(WorkingMesh& mesh, const EdgeTarget& target) {
             continue;
         const int h = edge.halfedge;
         const Vec3 point = 0.5 * (mesh.point(mesh.from(h)) + mesh.point(mesh.to(h)));
-        if (is_middle_taken(h, point)) continue;
+        if (!is_splittable(h, point)) continue;
         const int middle = mesh.split(h, point);
         ++count;
         mesh.visit_star(middle, [&](int out) {

@@ -9,6 +9,7 @@
 #include "geometry/surface_queries.h"
 #include "meshing/crossing_guard.h"
 #include "meshing/reference_surface.h"
+#include "meshing/remeshing_steps.h"
 #include "meshing/self_intersections.h"
 #include "meshing/size_sources.h"
 #include "sample_meshes.h"
@@ -155,6 +156,30 @@ TEST(SizeSources, LimitIsTheLeastOverAllSources) {
             else
                 EXPECT_FALSE(sources.is_near(p));
         }
+    }
+}
+
+TEST(SplitLongEdges, EndsBesideAnEdgeThatIsLeft) {
+    // Flat triangles on both sides of an edge whose middle is the corner of two features, and a
+    // source of short edges at its end.
+    std::mt19937_64 engine(5);
+    std::uniform_real_distribution<double> share(0, 1);
+    for (int trial = 0; trial < 2000; ++trial) {
+        const auto flat = [&] { return std::pow(10, -2 - 3 * share(engine)); };
+        const std::vector<Vec3> points{{0, 0, 0},
+                                       {3, 0, 0},
+                                       {1.5 + 0.01 * share(engine), flat(), 0},
+                                       {3 * share(engine), -flat(), 0}};
+        EdgeTarget target;
+        target.length = 1 + 2 * share(engine);
+        target.sources = SizeSources(target.length);
+        target.sources.add(points[1], 0.5 + 0.4 * share(engine));
+        WorkingMesh mesh(points, {{0, 1, 2}, {1, 0, 3}}, {});
+        mesh.set_role(1, EdgeRole::Feature);
+        mesh.set_role(2, EdgeRole::Feature);
+        // The sum of all lengths is below 12, and no edge shorter than half is split: a tree of
+        // splits has at most 3 levels below each of 5 edges, each of which adds two edges more.
+        EXPECT_LT(split_long_edges(mesh, target), 500U) << trial;
     }
 }
 
