@@ -111,7 +111,6 @@ private:
     }
 
     void learn(const SurfaceFaults& faults) {
-        asked_.clear();
         for (const auto& pair : faults.crossings)
             for (const int f : pair) ask(face_center(mesh_, f));
         for (const int f : faults.needles) ask(face_center(mesh_, f));
@@ -124,7 +123,7 @@ private:
             ask(p);
             if (!is_near_tip(p, target_.at(p))) tips_.push_back(p);
         }
-        for (const auto& [position, size] : asked_) target_.sources.add(position, size);
+        requests_.grant(target_.sources);
     }
 
     bool is_near_tip(const Vec3& p, double distance) const {
@@ -134,9 +133,7 @@ private:
 
     void ask(const Vec3& p) {
         const double now = target_.at(p);
-        for (const auto& [q, size] : asked_)
-            if ((p - q).norm() < 0.5 * now) return;
-        asked_.emplace_back(p, std::max(kLeast * target_.length, kShrink * now));
+        requests_.ask(p, now, std::max(kLeast * target_.length, kShrink * now));
     }
 
     WorkingMesh& mesh_;
@@ -146,7 +143,7 @@ private:
     IncrementalOptions options_;
     FaultFinder finder_;
     std::vector<Vec3> tips_;
-    std::vector<std::pair<Vec3, double>> asked_;
+    SizeRequests requests_;
 };
 
 }  // namespace

@@ -77,14 +77,13 @@ public:
 
 private:
     void ask_around_faults(bool is_cutting) {
-        asked_.clear();
         CrossingGuard guard(mesh_, target_.length);
         for (const auto& pair : faults_.crossings)
             for (const int f : pair) ask_at_face(f, is_cutting);
         for (const int f : faults_.needles) ask_at_face(f, is_cutting);
         for (const FarSample& sample : faults_.far)
             if (!anchor(sample, guard)) ask(sample.sample.position);
-        for (const auto& [position, size] : asked_) target_.sources.add(position, size);
+        requests_.grant(target_.sources);
     }
 
     void ask_at_face(int f, bool is_cutting) {
@@ -100,9 +99,7 @@ private:
 
     void ask(const Vec3& p) {
         const double now = target_.at(p);
-        for (const auto& [q, size] : asked_)
-            if ((p - q).norm() < 0.5 * now) return;
-        asked_.emplace_back(p, std::max(kLeast * target_.length, kShrink * now));
+        requests_.ask(p, now, std::max(kLeast * target_.length, kShrink * now));
     }
 
     /// Moves a free vertex to the sample and fixes it, if the faces around it stay sound.
@@ -182,7 +179,7 @@ private:
     SurfaceFaults& faults_;
     RepairOptions options_;
     std::optional<ReferenceSurface> curves_;
-    std::vector<std::pair<Vec3, double>> asked_;
+    SizeRequests requests_;
 };
 
 }  // namespace

@@ -51,4 +51,18 @@ double SizeSources::limit(const Vec3& position) const {
     return least;
 }
 
+void SizeRequests::ask(const Vec3& position, double now, double size) {
+    const bool is_asked =
+        std::any_of(requests_.begin(), requests_.end(), [&](const SizeSources::Source& other) {
+            return (position - other.position).norm() < 0.5 * now;
+        });
+    if (!is_asked) requests_.push_back({position, size});
+}
+
+void SizeRequests::grant(SizeSources& sources) {
+    for (const SizeSources::Source& request : requests_)
+        sources.add(request.position, request.size);
+    requests_.clear();
+}
+
 }  // namespace fcn

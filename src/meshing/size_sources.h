@@ -48,4 +48,17 @@ private:
     std::unordered_map<Cell, std::vector<int>, CellHash> cells_;
 };
 
+/// What one round of looking for faults asks for: of requests that lie within half an edge of each
+/// other the first counts, since one fault shows on several faces.
+class SizeRequests {
+public:
+    /// `now`: the edge length there so far.
+    void ask(const Vec3& position, double now, double size);
+    /// Makes them sources and forgets them.
+    void grant(SizeSources& sources);
+
+private:
+    std::vector<SizeSources::Source> requests_;
+};
+
 }  // namespace fcn
