@@ -424,15 +424,10 @@ private:
     }
 
     AdaptationResult finish() {
-        for (WorkingArc& arc : network().arcs) {
-            // Only an interrupted loop leaves arcs unsampled.
-            if (arc.needs_resampling()) resample_arcs(network(), scale_, options_.threads);
-        }
-        for (WorkingArc& arc : network().arcs) {
-            if (arc.is_alive && arc.chain.empty()) {
-                arc = WorkingArc{};
-                arc.is_alive = false;
-            }
+        // Only an interrupted loop leaves arcs unsampled.
+        resample_arcs(network(), scale_, options_.threads);
+        for (int a = 0; a < static_cast<int>(network().arcs.size()); ++a) {
+            if (network().arcs[a].needs_resampling()) network().remove_arc(a);
         }
         const NetworkGraph graph = make_graph(network());
         const auto attributes = attributes_of(graph, network(), state_.origins);

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "app/adaptation_arguments.h"
 #include "app/command.h"
@@ -39,13 +40,11 @@ Json places_json(const std::vector<RefinedPlace>& places) {
 }
 
 /// rmin as asked for, or else that of the adapted network.
-double scale_of(const RemeshArguments& arguments, const LoadedMesh& mesh,
-                const FeatureCurveNetwork& network) {
-    if (arguments.scale.is_given()) {
-        return resolve_scale(arguments.scale.request(), bounding_box(mesh.mesh).diagonal());
-    }
+double scale_of(const std::optional<ScaleRequest>& request, const LoadedMesh& mesh,
+                const FeatureCurveNetwork& network, const std::string& network_path) {
+    if (request) return resolve_scale(*request, bounding_box(mesh.mesh).diagonal());
     if (network.scale <= 0) {
-        throw InputError(arguments.network_path +
+        throw InputError(network_path +
                          ": not an adapted network, so it has no scale; give --scale or "
                          "--edge-length");
     }
@@ -60,7 +59,9 @@ int remesh(const RemeshArguments& arguments) {
         if (holds_curves_alone(output) && arguments.network_path.empty())
             throw UsageError(output + ": holds curves alone, and there are none without --network");
     }
-    if (arguments.network_path.empty() || arguments.scale.is_given()) arguments.scale.request();
+    std::optional<ScaleRequest> request;
+    if (arguments.network_path.empty() || arguments.scale.is_given())
+        request = arguments.scale.request();
     const LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
     RemeshOptions options;
     options.iterations = arguments.iterations;
@@ -69,7 +70,8 @@ int remesh(const RemeshArguments& arguments) {
     const FeatureCurveNetwork network = options.is_protecting
                                             ? read_network_for_mesh(arguments.network_path, mesh)
                                             : FeatureCurveNetwork{};
-    options.edge_length = kEdgeLengthFactor * scale_of(arguments, mesh, network);
+    options.edge_length =
+        kEdgeLengthFactor * scale_of(request, mesh, network, arguments.network_path);
     RemeshResult result = arguments.with == "cgal" ? remesh_with_cgal(mesh, network, options)
                                                    : remesh_triangles(mesh, network, options);
     for (const std::string& warning : result.warnings) print_warning(arguments.common, warning);

@@ -1,7 +1,7 @@
 // The plain threshold on dihedral angles, for who wants just that, and to compare with. Normals are
 // not normalised: an angle exceeds the threshold if the normals' product falls below its cosine
 // times their lengths, which is compared squared, signs kept. Every face's normal is computed once,
-// not once an edge, and its edges are judged right then, so that the mesh is read once.
+// not once an edge, from where the mesh keeps its points.
 
 #include <algorithm>
 #include <cmath>
