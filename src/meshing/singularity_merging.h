@@ -1,0 +1,27 @@
+#pragma once
+
+#include "meshing/matched_field.h"
+
+namespace fcn {
+
+struct Singularity {
+    int vertex = -1;
+    int index = 0;  ///< quarters: 1 has three quads around it, -1 five
+};
+
+/// Vertices of index other than 0 inside the mesh, ascending.
+std::vector<Singularity> inner_singularities(const Mesh& mesh, const CrossField& field);
+
+struct MergingStatistics {
+    int merged_pairs = 0;
+};
+
+/// Cancels pairs of opposite singularities that edge paths shorter than `distance` join, nearest
+/// first, by changing turns along the path; the angles are left to straighten(). Deterministic.
+MergingStatistics merge_singularities(const Mesh& mesh, const FaceConnection& connection,
+                                      double distance, MatchedField& matched);
+
+/// Pairs of opposite singularities closer than `distance` along edges.
+int close_pairs(const Mesh& mesh, const std::vector<Singularity>& singularities, double distance);
+
+}  // namespace fcn
