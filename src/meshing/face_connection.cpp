@@ -5,7 +5,8 @@
 // diffusion over the given length. With mass M, Laplacian L, time t: (M + t L) x = K makes the
 // curvature M x, and the difference -t L x is what the rotations -t c (x_j - x_i) across the edges
 // i j of cotangent weight c add up to around each vertex, so one solve gives both. Departure: the
-// defects of vertices on the network stay, since what the network keeps should be kept sharply.
+// defects of vertices on the network stay up to a quarter, since what the network keeps should be
+// kept sharply.
 #include "meshing/face_connection.h"
 
 #include <Eigen/SparseCholesky>
@@ -18,6 +19,7 @@
 namespace fcn {
 namespace {
 
+constexpr double kQuarter = std::numbers::pi / 2;
 constexpr double kLeastCotangent = 0.05;  ///< keeps the Laplacian's weights positive
 constexpr double kLeastArea = 1e-6;       ///< of the mean, for degenerate faces
 
@@ -47,7 +49,7 @@ std::vector<double> cotangent_weights(const Mesh& mesh) {
 Eigen::VectorXd spread_defects(const Mesh& mesh, const std::vector<bool>& is_kept) {
     Eigen::VectorXd defects = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()));
     for (const VertexHandle v : mesh.vertices()) {
-        if (mesh.is_boundary(v) || (!is_kept.empty() && is_kept[at(v.idx())])) continue;
+        if (mesh.is_boundary(v)) continue;
         double sum = 0;
         for (const HalfedgeHandle h : mesh.voh_range(v)) {
             const Vec3 a = mesh.point(mesh.to_vertex_handle(h)) - mesh.point(v);
@@ -55,7 +57,9 @@ Eigen::VectorXd spread_defects(const Mesh& mesh, const std::vector<bool>& is_kep
                 mesh.point(mesh.from_vertex_handle(mesh.prev_halfedge_handle(h))) - mesh.point(v);
             sum += std::atan2(a.cross(b).norm(), a.dot(b));
         }
-        defects[v.idx()] = 2 * std::numbers::pi - sum;
+        const double defect = 2 * std::numbers::pi - sum;
+        const bool is_whole = is_kept.empty() || !is_kept[at(v.idx())];
+        defects[v.idx()] = is_whole ? defect : defect - std::clamp(defect, -kQuarter, kQuarter);
     }
     return defects;
 }

@@ -15,6 +15,8 @@
 namespace fcn {
 namespace {
 
+constexpr double kApart = 0.6;  ///< of h: how far quarters of one vertex are taken apart
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<FieldGuide> collect_guides(const QuadDomain& domain, const FieldOptions& options) {
@@ -84,11 +86,14 @@ FieldDesign design_field(const QuadDomain& domain, const FieldOptions& options) 
     }
     MatchedField matched = match_arms(domain.mesh, connection, std::move(angles));
     design.merged_pairs =
-        merge_singularities(domain.mesh, connection, options.merging * h, matched).merged_pairs;
+        merge_singularities(domain.mesh, connection, options.merging * h, matched);
+    separate_quarters(domain.mesh, connection, kApart * h, matched);
     if (!straighten(connection, guides, matched))
         design.failure = "the angles of the cross field cannot be solved for";
     design.field = std::move(matched.field);
-    design.singularities = inner_singularities(domain.mesh, design.field);
+    design.singularities = inner_singularities(domain.mesh, matched.indices);
+    if (vertex_indices(domain.mesh, design.field) != matched.indices)
+        design.failure = "the cross field bends too much between neighbouring faces";
     design.close_pairs = close_pairs(domain.mesh, design.singularities, h);
     design.curve_deviation_degrees = curve_deviation(domain, design.field);
     design.seconds =

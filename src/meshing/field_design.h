@@ -13,8 +13,8 @@ struct FieldOptions {
     double curve_strength = 20;       ///< soft alignment to the network; 0: none
     double boundary_strength = 1e4;   ///< alignment to boundaries
     double curvature_strength = 0.2;  ///< alignment to curvature at scale h; 0: none
-    double smoothing = 1;             ///< curvature is spread over this many h; 0: not at all
-    double merging = 1;               ///< opposite singularities closer than this many h are merged
+    double smoothing = 1.5;           ///< curvature is spread over this many h; 0: not at all
+    double merging = 1.5;             ///< opposite singularities closer than this many h are merged
     std::uint64_t seed = 1;
 };
 

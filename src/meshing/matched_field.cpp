@@ -67,6 +67,7 @@ MatchedField match_arms(const Mesh& mesh, const FaceConnection& connection,
         matched.field.turns[at(h.idx())] = (turn + 4) % 4;
         matched.field.turns[at(mesh.opposite_halfedge_handle(h).idx())] = (4 - turn) % 4;
     }
+    matched.indices = vertex_indices(mesh, matched.field);
     return matched;
 }
 
@@ -77,6 +78,9 @@ void turn_link(const Mesh& mesh, const FaceConnection& connection, std::size_t l
     turn = (((turn + turns) % 4) + 4) % 4;
     matched.field.turns[at(mesh.opposite_halfedge_handle(h).idx())] = (4 - turn) % 4;
     matched.bends[link] -= turns * kQuarter;
+    // The link crosses h from its left to its right: clockwise around its origin.
+    matched.indices[at(mesh.from_vertex_handle(h).idx())] += turns;
+    matched.indices[at(mesh.to_vertex_handle(h).idx())] -= turns;
 }
 
 bool straighten(const FaceConnection& connection, const std::vector<FieldGuide>& guides,

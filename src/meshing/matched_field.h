@@ -14,6 +14,7 @@ struct MatchedField {
     /// Per link of the connection: from the arm of `from`, turned, to the arm of `to`; real, not
     /// wrapped.
     std::vector<double> bends;
+    std::vector<int> indices;  ///< per vertex (vertex_indices), kept up to date
 };
 
 /// Matches each arm to the nearest one across.

@@ -20,7 +20,7 @@
 namespace fcn {
 namespace {
 
-constexpr double kLeastImportance = 0.2;
+constexpr double kLeastImportance = 0.1;
 constexpr std::size_t kLongestWalk = 64;  ///< edges of a piece that is not a single one
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -49,7 +49,7 @@ void separate_curves(WorkingMesh& mesh, const ReferenceSurface& reference) {
     }
 }
 
-/// Between 0 and 1 by the weight for its length, compared with the median.
+/// Between 0 and 1 by the weight for its length, compared with that of strong segments.
 std::vector<double> importances(const FeatureCurveNetwork& network) {
     std::vector<double> density;
     for (const NetworkSegment& segment : network.segments) {
@@ -60,11 +60,10 @@ std::vector<double> importances(const FeatureCurveNetwork& network) {
     }
     if (density.empty()) return {};
     std::vector<double> sorted = density;
-    std::nth_element(sorted.begin(),
-                     sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    const double median = sorted[sorted.size() / 2];
+    std::sort(sorted.begin(), sorted.end());
+    const double strong = sorted[sorted.size() * 9 / 10];
     for (double& d : density)
-        d = median > 0 ? std::clamp(std::sqrt(d / median), kLeastImportance, 1.0) : 1;
+        d = strong > 0 ? std::clamp(std::sqrt(d / strong), kLeastImportance, 1.0) : 1;
     return density;
 }
 

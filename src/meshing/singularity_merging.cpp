@@ -2,11 +2,13 @@
 // irregular vertices and a strip of squeezed quads, and mean nothing at its scale (Ebke, Campen,
 // Bommes, Kobbelt 2014, section 4). A quarter turn more across an edge moves a quarter of index
 // from one of its ends to the other, so turning all edges of a path cancels the pair. Nearest pairs
-// go first; each quarter takes part once.
+// go first; each quarter takes part once. In the same way quarters that share a vertex, as at tips,
+// are taken apart: a vertex of two quads is worse than two of three.
 #include "meshing/singularity_merging.h"
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <queue>
 #include <unordered_map>
 
@@ -71,9 +73,28 @@ std::vector<Pair> opposite_pairs(const Mesh& mesh, const std::vector<Singularity
     return pairs;
 }
 
-class Merger {
+/// A free inner vertex within `distance` of the first place, as far as can be from all; -1: none.
+int farthest_place(const Mesh& mesh, const std::vector<int>& places, double distance,
+                   const std::vector<bool>& is_taken) {
+    std::map<int, double> nearest;  // distance to the nearest place
+    for (const auto& [v, reached] : reach(mesh, places[0], distance))
+        if (!is_taken[at(v)] && !mesh.is_boundary(VertexHandle(v))) nearest[v] = reached.distance;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        const auto known = reach(mesh, places[i], 2 * distance);
+        for (auto& [v, d] : nearest) {
+            const auto it = known.find(v);
+            if (it != known.end()) d = std::min(d, it->second.distance);
+        }
+    }
+    int best = -1;
+    for (const auto& [v, d] : nearest)
+        if (best < 0 || d > nearest[best]) best = v;
+    return best;
+}
+
+class QuarterMover {
 public:
-    Merger(const Mesh& mesh, const FaceConnection& connection, MatchedField& matched)
+    QuarterMover(const Mesh& mesh, const FaceConnection& connection, MatchedField& matched)
         : mesh_(mesh), connection_(connection), matched_(matched) {
         link_of_.assign(mesh.n_edges(), -1);
         for (std::size_t i = 0; i < connection.links.size(); ++i)
@@ -102,8 +123,7 @@ private:
 
 }  // namespace
 
-std::vector<Singularity> inner_singularities(const Mesh& mesh, const CrossField& field) {
-    const std::vector<int> indices = vertex_indices(mesh, field);
+std::vector<Singularity> inner_singularities(const Mesh& mesh, const std::vector<int>& indices) {
     std::vector<Singularity> result;
     for (const VertexHandle v : mesh.vertices())
         if (!mesh.is_boundary(v) && !mesh.is_isolated(v) && indices[at(v.idx())] != 0)
@@ -111,23 +131,40 @@ std::vector<Singularity> inner_singularities(const Mesh& mesh, const CrossField&
     return result;
 }
 
-MergingStatistics merge_singularities(const Mesh& mesh, const FaceConnection& connection,
-                                      double distance, MatchedField& matched) {
-    MergingStatistics statistics;
-    const std::vector<Singularity> singularities = inner_singularities(mesh, matched.field);
-    std::unordered_map<int, int> left;
-    for (const Singularity& s : singularities) left[s.vertex] = s.index;
-    Merger merger(mesh, connection, matched);
+int merge_singularities(const Mesh& mesh, const FaceConnection& connection, double distance,
+                        MatchedField& matched) {
+    int merged = 0;
+    const std::vector<Singularity> singularities = inner_singularities(mesh, matched.indices);
+    QuarterMover mover(mesh, connection, matched);
     for (const Pair& pair : opposite_pairs(mesh, singularities, distance)) {
-        int &positive = left[pair.positive], &negative = left[pair.negative];
-        while (positive > 0 && negative < 0) {
-            merger.move_quarter(pair.positive, pair.negative, distance);
-            --positive;
-            ++negative;
-            ++statistics.merged_pairs;
+        while (matched.indices[at(pair.positive)] > 0 && matched.indices[at(pair.negative)] < 0) {
+            mover.move_quarter(pair.positive, pair.negative, distance);
+            ++merged;
         }
     }
-    return statistics;
+    return merged;
+}
+
+int separate_quarters(const Mesh& mesh, const FaceConnection& connection, double distance,
+                      MatchedField& matched) {
+    int moved = 0;
+    QuarterMover mover(mesh, connection, matched);
+    const std::vector<Singularity> singularities = inner_singularities(mesh, matched.indices);
+    std::vector<bool> is_taken(mesh.n_vertices(), false);
+    for (const Singularity& s : singularities) is_taken[at(s.vertex)] = true;
+    for (const Singularity& s : singularities) {
+        const int sign = s.index > 0 ? 1 : -1;
+        std::vector<int> places{s.vertex};
+        for (int left = s.index * sign; left > 1; --left) {
+            const int to = farthest_place(mesh, places, distance, is_taken);
+            if (to < 0) break;
+            mover.move_quarter(sign > 0 ? s.vertex : to, sign > 0 ? to : s.vertex, distance);
+            is_taken[at(to)] = true;
+            places.push_back(to);
+            ++moved;
+        }
+    }
+    return moved;
 }
 
 int close_pairs(const Mesh& mesh, const std::vector<Singularity>& singularities, double distance) {

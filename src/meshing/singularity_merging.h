@@ -10,16 +10,18 @@ struct Singularity {
 };
 
 /// Vertices of index other than 0 inside the mesh, ascending.
-std::vector<Singularity> inner_singularities(const Mesh& mesh, const CrossField& field);
-
-struct MergingStatistics {
-    int merged_pairs = 0;
-};
+std::vector<Singularity> inner_singularities(const Mesh& mesh, const std::vector<int>& indices);
 
 /// Cancels pairs of opposite singularities that edge paths shorter than `distance` join, nearest
-/// first, by changing turns along the path; the angles are left to straighten(). Deterministic.
-MergingStatistics merge_singularities(const Mesh& mesh, const FaceConnection& connection,
-                                      double distance, MatchedField& matched);
+/// first, by changing turns along the path; the angles are left to straighten(). Returns the number
+/// of pairs. Deterministic.
+int merge_singularities(const Mesh& mesh, const FaceConnection& connection, double distance,
+                        MatchedField& matched);
+
+/// Takes indices of two quarters and more apart: all but one quarter go to vertices up to
+/// `distance` away, far from each other. Returns the number of quarters moved. Deterministic.
+int separate_quarters(const Mesh& mesh, const FaceConnection& connection, double distance,
+                      MatchedField& matched);
 
 /// Pairs of opposite singularities closer than `distance` along edges.
 int close_pairs(const Mesh& mesh, const std::vector<Singularity>& singularities, double distance);

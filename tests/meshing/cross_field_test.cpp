@@ -7,10 +7,12 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <sstream>
 
 #include "geometry/errors.h"
 #include "geometry/models.h"
 #include "meshing/field_design.h"
+#include "meshing/field_file.h"
 #include "meshing/sample_meshes.h"
 #include "meshing/sample_networks.h"
 
@@ -66,17 +68,9 @@ LoadedMesh loaded(Mesh mesh) {
     return result;
 }
 
-Vec3 arm(const Mesh& mesh, const CrossField& field, FaceHandle face) {
-    const auto v = face_vertices(mesh, face);
-    const Vec3 x = (mesh.point(v[1]) - mesh.point(v[0])).normalized();
-    const Vec3 y = face_normal(mesh, face).cross(x);
-    const double angle = field.angles[static_cast<std::size_t>(face.idx())];
-    return std::cos(angle) * x + std::sin(angle) * y;
-}
-
 /// Radians between the cross of a face and a direction in it.
 double deviation(const Mesh& mesh, const CrossField& field, FaceHandle face, const Vec3& to) {
-    const Vec3 a = arm(mesh, field, face);
+    const Vec3 a = arm_direction(mesh, field, face);
     const Vec3 b = face_normal(mesh, face).cross(a);
     return std::abs(std::remainder(std::atan2(to.dot(b), to.dot(a)), kQuarter));
 }
@@ -137,7 +131,8 @@ TEST(CrossField, FramesUnfoldAcrossEdges) {
         const FaceHandle face = mesh.face_handle(h);
         CrossField field;
         field.angles.assign(mesh.n_faces(), halfedge_angle(mesh, h));
-        EXPECT_LT((arm(mesh, field, face) - mesh.calc_edge_vector(h).normalized()).norm(), 1e-12);
+        EXPECT_LT((arm_direction(mesh, field, face) - mesh.calc_edge_vector(h).normalized()).norm(),
+                  1e-12);
     }
 }
 
@@ -265,7 +260,7 @@ TEST(FieldDesign, MergesOppositePairs) {
         angles.push_back(-std::atan2(along[1], along[0]));
     }
     MatchedField straight = match_arms(domain.mesh, connection, angles);
-    ASSERT_TRUE(inner_singularities(domain.mesh, straight.field).empty());
+    ASSERT_TRUE(inner_singularities(domain.mesh, straight.indices).empty());
     // Turning a link makes a pair of opposite singularities at the ends of its edge.
     MatchedField twisted = straight;
     std::size_t link = 0;
@@ -275,15 +270,24 @@ TEST(FieldDesign, MergesOppositePairs) {
     };
     while (domain.mesh.is_boundary(end(0)) || domain.mesh.is_boundary(end(1))) ++link;
     turn_link(domain.mesh, connection, link, 1, twisted);
-    const std::vector<Singularity> pair = inner_singularities(domain.mesh, twisted.field);
+    const std::vector<Singularity> pair = inner_singularities(domain.mesh, twisted.indices);
     ASSERT_EQ(pair.size(), 2u);
     EXPECT_EQ(pair[0].index + pair[1].index, 0);
     EXPECT_EQ(close_pairs(domain.mesh, pair, 0.1), 1);
-    const MergingStatistics statistics = merge_singularities(domain.mesh, connection, 0.1, twisted);
-    EXPECT_EQ(statistics.merged_pairs, 1);
-    EXPECT_TRUE(inner_singularities(domain.mesh, twisted.field).empty());
+    EXPECT_EQ(merge_singularities(domain.mesh, connection, 0.1, twisted), 1);
+    EXPECT_TRUE(inner_singularities(domain.mesh, twisted.indices).empty());
+    // What is turned more than once comes apart and back together.
+    turn_link(domain.mesh, connection, link, 2, twisted);
+    EXPECT_EQ(separate_quarters(domain.mesh, connection, 0.1, twisted), 2);
+    const std::vector<Singularity> quarters = inner_singularities(domain.mesh, twisted.indices);
+    EXPECT_EQ(quarters.size(), 4u);
+    for (const Singularity& s : quarters) EXPECT_EQ(std::abs(s.index), 1);
+    EXPECT_EQ(merge_singularities(domain.mesh, connection, 0.3, twisted), 2);
+    EXPECT_TRUE(inner_singularities(domain.mesh, twisted.indices).empty());
     ASSERT_TRUE(straighten(connection, {}, twisted));
-    for (const double bend : twisted.bends) EXPECT_NEAR(bend, 0, 1e-6);
+    double largest = 0;
+    for (const double bend : twisted.bends) largest = std::max(largest, std::abs(bend));
+    EXPECT_LT(largest, 1e-6);
 }
 
 TEST(FieldDesign, Deterministic) {
@@ -302,6 +306,32 @@ TEST(FieldDesign, RefusesBadLengths) {
         EXPECT_THROW(design(domain, h), InputError);
     QuadDomainOptions options;
     EXPECT_THROW(make_quad_domain(loaded(rectangle(1, 1, 2, 2)), {}, options), InputError);
+}
+
+TEST(FieldFile, ArmsComeBackFromText) {
+    const QuadDomain domain = domain_of(loaded(test::sphere(1, 2)), {}, 0.4);
+    const FieldDesign result = design(domain, 0.4);
+    std::istringstream rosy(rosy_text(domain.mesh, result.field));
+    std::size_t faces = 0;
+    int symmetry = 0;
+    rosy >> faces >> symmetry;
+    EXPECT_EQ(faces, domain.mesh.n_faces());
+    EXPECT_EQ(symmetry, 4);
+    for (const FaceHandle face : domain.mesh.faces()) {
+        Vec3 v;
+        ASSERT_TRUE(rosy >> v[0] >> v[1] >> v[2]);
+        EXPECT_EQ(v, arm_direction(domain.mesh, result.field, face));
+        EXPECT_NEAR(v.norm(), 1, 1e-12);
+        EXPECT_NEAR(v.dot(face_normal(domain.mesh, face)), 0, 1e-12);
+    }
+    std::istringstream singular(singularity_text(domain.mesh, result.singularities));
+    int vertex = 0, index = 0, sum = 0;
+    Vec3 p;
+    while (singular >> vertex >> index >> p[0] >> p[1] >> p[2]) {
+        sum += index;
+        EXPECT_EQ(p, domain.mesh.point(VertexHandle(vertex)));
+    }
+    EXPECT_EQ(sum, 8);
 }
 
 // No edge joins two curves without being part of one, no curve is lost.
