@@ -15,7 +15,9 @@
 namespace fcn {
 namespace {
 
-constexpr double kApart = 0.6;  ///< of h: how far quarters of one vertex are taken apart
+constexpr double kStrong = 0.5;        ///< importance of curves whose singularities are meant
+constexpr double kKeptMerging = 0.45;  ///< of the distance of merging, for these
+constexpr double kApart = 0.6;         ///< of h: how far quarters of one vertex are taken apart
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -33,10 +35,12 @@ std::vector<FieldGuide> collect_guides(const QuadDomain& domain, const FieldOpti
     return guides;
 }
 
-std::vector<bool> curve_vertices(const QuadDomain& domain) {
+/// Vertices of curves of at least this importance.
+std::vector<bool> curve_vertices(const QuadDomain& domain, double importance) {
     std::vector<bool> is_on_curve(domain.mesh.n_vertices(), false);
     for (const EdgeHandle edge : domain.mesh.edges()) {
-        if (domain.edge_arc[at(edge.idx())] < 0) continue;
+        if (domain.edge_arc[at(edge.idx())] < 0 || domain.edge_weight[at(edge.idx())] < importance)
+            continue;
         for (const unsigned side : {0u, 1u})
             is_on_curve[at(
                 domain.mesh.to_vertex_handle(domain.mesh.halfedge_handle(edge, side)).idx())] =
@@ -72,7 +76,7 @@ FieldDesign design_field(const QuadDomain& domain, const FieldOptions& options) 
     const double h = options.edge_length;
     ConnectionOptions connecting;
     connecting.smoothing = options.smoothing * h;
-    if (options.curve_strength > 0) connecting.is_kept = curve_vertices(domain);
+    if (options.curve_strength > 0) connecting.is_kept = curve_vertices(domain, 0);
     const FaceConnection connection = connect_faces(domain.mesh, connecting);
     const std::vector<FieldGuide> guides = collect_guides(domain, options);
     FieldSmoothingOptions smoothing;
@@ -85,8 +89,11 @@ FieldDesign design_field(const QuadDomain& domain, const FieldOptions& options) 
         return design;
     }
     MatchedField matched = match_arms(domain.mesh, connection, std::move(angles));
-    design.merged_pairs =
-        merge_singularities(domain.mesh, connection, options.merging * h, matched);
+    MergingOptions merging;
+    merging.distance = options.merging * h;
+    merging.kept_distance = kKeptMerging * merging.distance;
+    if (options.curve_strength > 0) merging.is_kept = curve_vertices(domain, kStrong);
+    design.merged_pairs = merge_singularities(domain.mesh, connection, merging, matched);
     separate_quarters(domain.mesh, connection, kApart * h, matched);
     if (!straighten(connection, guides, matched))
         design.failure = "the angles of the cross field cannot be solved for";

@@ -2,8 +2,10 @@
 // irregular vertices and a strip of squeezed quads, and mean nothing at its scale (Ebke, Campen,
 // Bommes, Kobbelt 2014, section 4). A quarter turn more across an edge moves a quarter of index
 // from one of its ends to the other, so turning all edges of a path cancels the pair. Nearest pairs
-// go first; each quarter takes part once. In the same way quarters that share a vertex, as at tips,
-// are taken apart: a vertex of two quads is worse than two of three.
+// go first; each quarter takes part once. Departure: the nodes of a conforming network are as far
+// apart as its scale says and may both be singular, as the corners of a tooth are. In the same way
+// quarters that share a vertex, as at tips, are taken apart: a vertex of two quads is worse than
+// two of three.
 #include "meshing/singularity_merging.h"
 
 #include <algorithm>
@@ -131,14 +133,18 @@ std::vector<Singularity> inner_singularities(const Mesh& mesh, const std::vector
     return result;
 }
 
-int merge_singularities(const Mesh& mesh, const FaceConnection& connection, double distance,
-                        MatchedField& matched) {
+int merge_singularities(const Mesh& mesh, const FaceConnection& connection,
+                        const MergingOptions& options, MatchedField& matched) {
     int merged = 0;
+    const auto is_kept = [&](int v) { return !options.is_kept.empty() && options.is_kept[at(v)]; };
     const std::vector<Singularity> singularities = inner_singularities(mesh, matched.indices);
     QuarterMover mover(mesh, connection, matched);
-    for (const Pair& pair : opposite_pairs(mesh, singularities, distance)) {
+    for (const Pair& pair : opposite_pairs(mesh, singularities, options.distance)) {
+        if (is_kept(pair.positive) && is_kept(pair.negative) &&
+            pair.distance >= options.kept_distance)
+            continue;
         while (matched.indices[at(pair.positive)] > 0 && matched.indices[at(pair.negative)] < 0) {
-            mover.move_quarter(pair.positive, pair.negative, distance);
+            mover.move_quarter(pair.positive, pair.negative, options.distance);
             ++merged;
         }
     }

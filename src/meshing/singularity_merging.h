@@ -12,11 +12,17 @@ struct Singularity {
 /// Vertices of index other than 0 inside the mesh, ascending.
 std::vector<Singularity> inner_singularities(const Mesh& mesh, const std::vector<int>& indices);
 
-/// Cancels pairs of opposite singularities that edge paths shorter than `distance` join, nearest
-/// first, by changing turns along the path; the angles are left to straighten(). Returns the number
-/// of pairs. Deterministic.
-int merge_singularities(const Mesh& mesh, const FaceConnection& connection, double distance,
-                        MatchedField& matched);
+struct MergingOptions {
+    double distance = 0;        ///< up to which pairs are cancelled, along edges, mesh units
+    double kept_distance = 0;   ///< the same for pairs of kept vertices; at most `distance`
+    std::vector<bool> is_kept;  ///< per vertex; empty: none
+};
+
+/// Cancels pairs of opposite singularities that are close, nearest first, by changing turns along
+/// the path between them; the angles are left to straighten(). Returns the number of pairs.
+/// Deterministic.
+int merge_singularities(const Mesh& mesh, const FaceConnection& connection,
+                        const MergingOptions& options, MatchedField& matched);
 
 /// Takes indices of two quarters and more apart: all but one quarter go to vertices up to
 /// `distance` away, far from each other. Returns the number of quarters moved. Deterministic.

@@ -274,7 +274,9 @@ TEST(FieldDesign, MergesOppositePairs) {
     ASSERT_EQ(pair.size(), 2u);
     EXPECT_EQ(pair[0].index + pair[1].index, 0);
     EXPECT_EQ(close_pairs(domain.mesh, pair, 0.1), 1);
-    EXPECT_EQ(merge_singularities(domain.mesh, connection, 0.1, twisted), 1);
+    const std::vector<bool> is_kept(domain.mesh.n_vertices(), true);
+    EXPECT_EQ(merge_singularities(domain.mesh, connection, {0.1, 0.001, is_kept}, twisted), 0);
+    EXPECT_EQ(merge_singularities(domain.mesh, connection, {0.1, 0.1, {}}, twisted), 1);
     EXPECT_TRUE(inner_singularities(domain.mesh, twisted.indices).empty());
     // What is turned more than once comes apart and back together.
     turn_link(domain.mesh, connection, link, 2, twisted);
@@ -282,7 +284,7 @@ TEST(FieldDesign, MergesOppositePairs) {
     const std::vector<Singularity> quarters = inner_singularities(domain.mesh, twisted.indices);
     EXPECT_EQ(quarters.size(), 4u);
     for (const Singularity& s : quarters) EXPECT_EQ(std::abs(s.index), 1);
-    EXPECT_EQ(merge_singularities(domain.mesh, connection, 0.3, twisted), 2);
+    EXPECT_EQ(merge_singularities(domain.mesh, connection, {0.3, 0.3, {}}, twisted), 2);
     EXPECT_TRUE(inner_singularities(domain.mesh, twisted.indices).empty());
     ASSERT_TRUE(straighten(connection, {}, twisted));
     double largest = 0;
