@@ -61,7 +61,7 @@ public:
             cuts += cut();
             remesh();
             ++statistics.rounds;
-            faults_ = finder_.find_near_sources(mesh_, target_);
+            faults_ = finder_.find_near_sources(mesh_, target_, best_faults);
             ++idle;
             if (faults_.severity >= best_faults.severity) continue;
             best = mesh_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "meshing/remeshing_steps.h"
@@ -40,7 +41,10 @@ private:
     std::size_t flip_edges();
     std::size_t move_vertices();
     bool move(int v);
-    double star_penalty(int v, const Vec3& p) const;
+    /// Of the faces at a vertex, were it at p; a part of it that is `enough` if it is not below
+    /// that.
+    double star_penalty(int v, const Vec3& p,
+                        double enough = std::numeric_limits<double>::infinity()) const;
     bool turns_faces(int v, const Vec3& p) const;
 
     WorkingMesh& mesh_;

@@ -48,14 +48,15 @@ void add_crease_points(const Mesh& mesh, EdgeHandle edge, double spacing,
         samples.push_back({a + i / count * (b - a), one.is_valid() ? one.idx() : other.idx()});
 }
 
-double severity_of(const WorkingMesh& mesh, const EdgeTarget& target, const SurfaceFaults& faults) {
-    double severity = 3.0 * static_cast<double>(faults.crossings.size());
+/// Leaves out needles where there are too many, and sums up what is left.
+void weigh(const WorkingMesh& mesh, const EdgeTarget& target, SurfaceFaults& faults) {
+    if (faults.has_too_many_needles) faults.needles.clear();
+    faults.severity = 3.0 * static_cast<double>(faults.crossings.size());
     for (const int f : faults.needles) {
         const auto [a, b, c] = points_of(mesh, f);
-        severity += 0.5 + 7 * (kSmallAngle - std::acos(cosine_of_smallest_angle(a, b, c)));
+        faults.severity += 0.5 + 7 * (kSmallAngle - std::acos(cosine_of_smallest_angle(a, b, c)));
     }
-    if (!faults.far.empty()) severity += 6 * (faults.far[0].distance / target.length - kFar);
-    return severity;
+    if (!faults.far.empty()) faults.severity += 6 * (faults.far[0].distance / target.length - kFar);
 }
 
 }  // namespace
@@ -76,11 +77,16 @@ FaultFinder::FaultFinder(const Mesh& mesh, double edge_length)
 SurfaceFaults FaultFinder::find(const WorkingMesh& mesh, const EdgeTarget& target) const {
     std::vector<int> faces(static_cast<std::size_t>(mesh.face_end()));
     std::iota(faces.begin(), faces.end(), 0);
-    return find_among(mesh, target, faces, true);
+    SurfaceFaults faults = find_among(mesh, target, faces, true);
+    // So many come of features that the edge length does not suit, and no repair is the answer.
+    faults.has_too_many_needles =
+        static_cast<double>(faults.needles.size()) > kMostNeedles * mesh.face_end() + kFewNeedles;
+    weigh(mesh, target, faults);
+    return faults;
 }
 
-SurfaceFaults FaultFinder::find_near_sources(const WorkingMesh& mesh,
-                                             const EdgeTarget& target) const {
+SurfaceFaults FaultFinder::find_near_sources(const WorkingMesh& mesh, const EdgeTarget& target,
+                                             const SurfaceFaults& before) const {
     std::vector<bool> is_near(static_cast<std::size_t>(mesh.vertex_end()));
     for (int v = 0; v < mesh.vertex_end(); ++v)
         is_near[static_cast<std::size_t>(v)] = target.sources.is_around(mesh.point(v));
@@ -91,7 +97,10 @@ SurfaceFaults FaultFinder::find_near_sources(const WorkingMesh& mesh,
                         [&](int v) { return is_near[static_cast<std::size_t>(v)]; }))
             faces.push_back(f);
     }
-    return find_among(mesh, target, faces, false);
+    SurfaceFaults faults = find_among(mesh, target, faces, false);
+    faults.has_too_many_needles = before.has_too_many_needles;
+    weigh(mesh, target, faults);
+    return faults;
 }
 
 SurfaceFaults FaultFinder::find_among(const WorkingMesh& mesh, const EdgeTarget& target,
@@ -104,11 +113,7 @@ SurfaceFaults FaultFinder::find_among(const WorkingMesh& mesh, const EdgeTarget&
         if (cosine_of_smallest_angle(a, b, c) > std::cos(kSmallAngle) && !is_angle_forced(mesh, f))
             faults.needles.push_back(f);
     }
-    // So many come of features that the edge length does not suit, and no repair is the answer.
-    if (static_cast<double>(faults.needles.size()) > kMostNeedles * mesh.face_end() + kFewNeedles)
-        faults.needles.clear();
     find_far(mesh, target, faces, is_everywhere, faults);
-    faults.severity = severity_of(mesh, target, faults);
     return faults;
 }
 

@@ -23,8 +23,9 @@ struct FarSample {
 struct SurfaceFaults {
     /// Pairs of faces that intersect away from where the reference does.
     std::vector<std::array<int, 2>> crossings;
-    /// Faces with an angle under 30 degrees that no two curves force; none if there are very many.
+    /// Faces with an angle under 30 degrees that no two curves force; none if there are too many.
     std::vector<int> needles;
+    bool has_too_many_needles = false;
     /// The reference's points farther from the mesh than a share of the target: the farthest, one
     /// in a ball of the target's radius, farthest first.
     std::vector<FarSample> far;
@@ -39,8 +40,10 @@ public:
 
     /// Time near-linear in the mesh and the samples.
     SurfaceFaults find(const WorkingMesh& mesh, const EdgeTarget& target) const;
-    /// Only where the target's sources are felt, for a mesh that has no faults elsewhere.
-    SurfaceFaults find_near_sources(const WorkingMesh& mesh, const EdgeTarget& target) const;
+    /// Only where the target's sources are felt, for a mesh that has no faults elsewhere. Needles
+    /// count as they did `before`, so that severities can be compared.
+    SurfaceFaults find_near_sources(const WorkingMesh& mesh, const EdgeTarget& target,
+                                    const SurfaceFaults& before) const;
 
 private:
     SurfaceFaults find_among(const WorkingMesh& mesh, const EdgeTarget& target,
