@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace fcn {
 
@@ -163,7 +164,8 @@ double sample_spacing(const ScaleInterval& scale) {
 namespace {
 
 /// Drops corners that a quarter of the spacing makes redundant: close to the last kept one and
-/// within a thousandth of the spacing of a straight line to the next.
+/// within a twentieth of the spacing of a straight line to the next. Of a tiny arc all stay: alone
+/// or with another it may be a loop, which with fewer than three corners would be none.
 std::vector<int> corners_to_keep(const std::vector<ArcSample>& samples, double spacing) {
     std::vector<int> kept{0};
     const int last = static_cast<int>(samples.size()) - 1;
@@ -180,6 +182,10 @@ std::vector<int> corners_to_keep(const std::vector<ArcSample>& samples, double s
         kept.push_back(k);
     }
     kept.push_back(last);
+    if (kept.size() < 4) {
+        kept.resize(samples.size());
+        std::iota(kept.begin(), kept.end(), 0);
+    }
     return kept;
 }
 

@@ -233,6 +233,29 @@ TEST(Adaptation, SmallLoopIsDroppedWithItsReasonOrPinnedAndReported) {
     }
 }
 
+TEST(Adaptation, PinnedPinholeStaysATriangle) {
+    // Corners closer together than the samples of the adaptation, one of them nearly on a line; as
+    // one closed arc, and as two arcs.
+    const Vec3 a(0.3, 0.3, 0), b(0.3003, 0.3, 0), c(0.30015, 0.30001, 0);
+    for (const bool is_one_arc : {true, false}) {
+        Drawing drawing;
+        if (is_one_arc) {
+            drawing.add({a, b, c, a}).pin = Pin::Keep;
+        } else {
+            drawing.add({a, b}).pin = Pin::Keep;
+            drawing.add({b, c, a}).pin = Pin::Keep;
+        }
+        drawing.add_circle({0.7, 0.7, 0}, 0.1);
+        const AdaptationResult result =
+            adapt_network(drawing.mesh, drawing.network, options_at(0.1));
+        ASSERT_EQ(result.network.arcs.size(), 2U);
+        const auto& arcs = result.network.arcs;
+        EXPECT_EQ(std::min(arcs[0].samples.size(), arcs[1].samples.size()), 4U);
+        EXPECT_EQ(validate(result.network), std::vector<std::string>{});
+        EXPECT_NO_THROW(network_from_json(network_to_json(result.network), "pinhole"));
+    }
+}
+
 TEST(Adaptation, FeaturesYieldToPinnedCurves) {
     Drawing drawing;
     drawing.add({{0.1, 0.5, 0}, {0.9, 0.5, 0}}).pin = Pin::Keep;
