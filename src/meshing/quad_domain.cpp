@@ -2,9 +2,10 @@
 // (incremental_remeshing.h), but cut more finely: each segment becomes a chain of edges that
 // follows the dense samples, not the chord. Then every edge that joins curves without being part of
 // one is halved, so that no face lies between two curves: a direction in such a face could follow
-// only one of them, and a map could not keep both straight without squeezing it. There is one
-// attempt; what attempts and repair mend (adaptive_remeshing.h) are faults of a surface that others
-// see, and here the result only has to carry a field and a map.
+// only one of them, and a map could not keep both straight without squeezing it. What
+// keeps triangles from crossing, and the attempts and repairs of adaptive_remeshing.h, are left
+// out: they mend a surface that others see, and here only its inside matters, which carries a field
+// and a map.
 #include "meshing/quad_domain.h"
 
 #include <algorithm>
@@ -134,6 +135,21 @@ private:
     QuadDomain& domain_;
 };
 
+/// The incremental steps. No thin places are marked: triangles of two sheets may cross.
+void remesh(WorkingMesh& mesh, const ReferenceSurface& reference, const EdgeTarget& target,
+            int iterations) {
+    coarsen(mesh, target);
+    for (int i = 0; i < iterations; ++i) {
+        split_long_edges(mesh, target);
+        collapse_short_edges(mesh, target, kShortestEdge);
+        straighten_chains(mesh, target);
+        flip_for_valence(mesh, target);
+        smooth(mesh, reference, target);
+        mesh.compact();
+    }
+    flip_for_angles(mesh, target);
+}
+
 }  // namespace
 
 QuadDomain make_quad_domain(const LoadedMesh& input, const FeatureCurveNetwork& network,
@@ -149,11 +165,7 @@ QuadDomain make_quad_domain(const LoadedMesh& input, const FeatureCurveNetwork& 
                              ? embed_network(input, network, options.edge_length, reference)
                              : NetworkInMesh{working_mesh(input), {}, {}};
     const EdgeTarget target{options.edge_length, {}, {}, {}};
-    IncrementalOptions incremental;
-    incremental.iterations = options.iterations;
-    incremental.is_improving = false;
-    coarsen_early(work.mesh, target, reference);
-    remesh_incrementally(work.mesh, reference, target, incremental);
+    remesh(work.mesh, reference, target, options.iterations);
     separate_curves(work.mesh, reference);
     work.mesh.compact();
 
