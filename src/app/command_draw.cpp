@@ -4,12 +4,14 @@
 #include <charconv>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "app/command.h"
 #include "app/inputs.h"
 #include "app/json_summary.h"
 #include "app/length.h"
 #include "app/outputs.h"
+#include "meshing/quad_files.h"
 #include "report/camera.h"
 #include "report/drawn_curves.h"
 #include "report/picture.h"
@@ -117,6 +119,25 @@ void add_layers(const DrawnNetwork& drawn, const FeatureCurveNetwork& network,
     layers.push_back(std::move(dots));
 }
 
+/// With --wireframe a mesh of quads alone is drawn as such, without the diagonals.
+std::optional<QuadMesh> quads_to_draw(const DrawArguments& arguments) {
+    if (!arguments.is_wireframe || arguments.input == "-") return std::nullopt;
+    std::optional<QuadMesh> quads = read_quads(arguments.input);
+    return quads && check_topology(*quads).fault.empty() ? quads : std::nullopt;
+}
+
+PictureLayer edges_of(const QuadMesh& mesh) {
+    PictureLayer layer{{}, {70, 80, 95}, 1};
+    const std::vector<int> opposite = opposite_halfedges(mesh);
+    for (std::size_t h = 0; h < opposite.size(); ++h) {
+        if (opposite[h] > static_cast<int>(h)) continue;
+        const auto& face = mesh.faces[h / 4];
+        layer.polylines.push_back({mesh.points[static_cast<std::size_t>(face[h % 4])],
+                                   mesh.points[static_cast<std::size_t>(face[(h + 1) % 4])]});
+    }
+    return layer;
+}
+
 int draw(const DrawArguments& arguments) {
     std::vector<DrawnNetwork> networks;
     for (const std::string& text : arguments.curves) networks.push_back(parse_curves(text));
@@ -128,13 +149,22 @@ int draw(const DrawArguments& arguments) {
     options.up = parse_vector(arguments.up, "--up");
     options.is_drawing_wireframe = arguments.is_wireframe;
     prepare_output(arguments.output, OutputKind::Other, arguments.common);
-    const LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
+    std::vector<PictureLayer> layers;
+    const std::optional<QuadMesh> quads = quads_to_draw(arguments);
+    if (quads) {
+        options.is_drawing_wireframe = false;
+        layers.push_back(edges_of(*quads));
+    }
+    LoadedMesh mesh;
+    if (quads)
+        mesh.mesh = triangle_mesh(*quads);
+    else
+        mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
     LoadedMesh other;
     if (!arguments.seen_as.empty()) {
         other = load_mesh(arguments.seen_as, arguments.mesh, arguments.common);
         options.seen_as = &other.mesh;
     }
-    std::vector<PictureLayer> layers;
     if (mesh.mesh.n_faces() > 0) {
         const SurfaceQueries surface(mesh.mesh);
         const double finest = 0.004 * bounding_box(mesh.mesh).diagonal();
@@ -166,7 +196,8 @@ Command add_draw_command(CLI::App& program) {
                        "Curves to draw, a file each, by its name or as FILE=COLOUR: initial, kept, "
                        "dropped (its dropped pieces, if it has any), pinned, short, grey, #rrggbb");
     parser->add_flag("--dots", arguments->has_dots, "A dot on each node of the curves");
-    parser->add_flag("--wireframe", arguments->is_wireframe, "The mesh's edges");
+    parser->add_flag("--wireframe", arguments->is_wireframe,
+                     "The mesh's edges, of quads without their diagonals");
     parser->add_option("--as", arguments->seen_as,
                        "Mesh whose view and framing are taken, for pictures side by side");
     parser->add_option("--view", arguments->view,

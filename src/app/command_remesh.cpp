@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include "app/adaptation_arguments.h"
@@ -10,6 +11,7 @@
 #include "app/inputs.h"
 #include "app/json_summary.h"
 #include "app/outputs.h"
+#include "app/quad_summary.h"
 #include "geometry/errors.h"
 #include "geometry/mesh_curves.h"
 #include "meshing/measure.h"
@@ -29,6 +31,9 @@ struct RemeshArguments {
     int iterations = 10;
     double curvature_tolerance = 0;
     std::string with = "own";
+    std::string tier = "best";
+    std::string guidance = "network";
+    double threshold_degrees = 45;
 };
 
 Json places_json(const std::vector<RefinedPlace>& places) {
@@ -51,27 +56,73 @@ double scale_of(const std::optional<ScaleRequest>& request, const LoadedMesh& me
     return network.scale;
 }
 
+/// The mesh, the network, and how long edges should be.
+struct RemeshInputs {
+    LoadedMesh mesh;
+    FeatureCurveNetwork network;
+    double edge_length = 0;
+};
+
+RemeshInputs read_inputs(const RemeshArguments& arguments) {
+    RemeshInputs inputs;
+    std::optional<ScaleRequest> request;
+    if (arguments.network_path.empty() || arguments.scale.is_given())
+        request = arguments.scale.request();
+    inputs.mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
+    if (!arguments.network_path.empty())
+        inputs.network = read_network_for_mesh(arguments.network_path, inputs.mesh);
+    inputs.edge_length =
+        kEdgeLengthFactor * scale_of(request, inputs.mesh, inputs.network, arguments.network_path);
+    return inputs;
+}
+
+int remesh_to_quads(const RemeshArguments& arguments) {
+    for (const std::string& output : arguments.outputs)
+        prepare_output(output, OutputKind::Quads, arguments.common);
+    if (arguments.with != "own")
+        throw UsageError("--with " + arguments.with + " goes with --type tri");
+    const RemeshInputs inputs = read_inputs(arguments);
+    QuadOptions options;
+    options.edge_length = inputs.edge_length;
+    options.iterations = arguments.iterations;
+    options.best_tier = arguments.tier == "pairing" ? QuadTier::Pairing : QuadTier::Field;
+    options.guidance = arguments.guidance == "none"        ? QuadGuidance::None
+                       : arguments.guidance == "threshold" ? QuadGuidance::Threshold
+                                                           : QuadGuidance::Network;
+    options.threshold = arguments.threshold_degrees * std::numbers::pi / 180;
+    const QuadResult result = remesh_quads(inputs.mesh, inputs.network, options);
+    for (const std::string& warning : result.warnings) print_warning(arguments.common, warning);
+    for (const std::string& output : arguments.outputs) save_quads(output, result.mesh);
+    if (std::ranges::find(arguments.outputs, "-") != arguments.outputs.end()) return kDone;
+    const QuadQuality quality = measure_quads(result.mesh, inputs.edge_length);
+    if (arguments.common.is_json) {
+        Json json = quad_result_json(result, !arguments.common.is_timeless);
+        json["quads"] = quad_quality_json(quality);
+        json["files"] = arguments.outputs;
+        print_json(json);
+        return kDone;
+    }
+    fmt::print("{}\nmade by {}{}{}\n", quad_quality_text(quality), to_string(result.tier),
+               result.reason.empty() ? "" : ": ", result.reason);
+    for (const std::string& output : arguments.outputs) fmt::print("wrote {}\n", output);
+    return kDone;
+}
+
 int remesh(const RemeshArguments& arguments) {
-    if (arguments.type == "quad")
-        throw UsageError("--type quad is not available in this version; use --type tri");
+    if (arguments.type == "quad") return remesh_to_quads(arguments);
     for (const std::string& output : arguments.outputs) {
         prepare_output(output, OutputKind::MeshWithCurves, arguments.common);
         if (holds_curves_alone(output) && arguments.network_path.empty())
             throw UsageError(output + ": holds curves alone, and there are none without --network");
     }
-    std::optional<ScaleRequest> request;
-    if (arguments.network_path.empty() || arguments.scale.is_given())
-        request = arguments.scale.request();
-    const LoadedMesh mesh = load_mesh(arguments.input, arguments.mesh, arguments.common);
+    const RemeshInputs inputs = read_inputs(arguments);
+    const LoadedMesh& mesh = inputs.mesh;
+    const FeatureCurveNetwork& network = inputs.network;
     RemeshOptions options;
     options.iterations = arguments.iterations;
     options.curvature_tolerance = arguments.curvature_tolerance;
     options.is_protecting = !arguments.network_path.empty();
-    const FeatureCurveNetwork network = options.is_protecting
-                                            ? read_network_for_mesh(arguments.network_path, mesh)
-                                            : FeatureCurveNetwork{};
-    options.edge_length =
-        kEdgeLengthFactor * scale_of(request, mesh, network, arguments.network_path);
+    options.edge_length = inputs.edge_length;
     RemeshResult result = arguments.with == "cgal" ? remesh_with_cgal(mesh, network, options)
                                                    : remesh_triangles(mesh, network, options);
     for (const std::string& warning : result.warnings) print_warning(arguments.common, warning);
@@ -110,8 +161,8 @@ int remesh(const RemeshArguments& arguments) {
 
 Command add_remesh_command(CLI::App& program) {
     auto arguments = std::make_shared<RemeshArguments>();
-    CLI::App* parser =
-        program.add_subcommand("remesh", "Make a triangle mesh of one edge length on a network");
+    CLI::App* parser = program.add_subcommand(
+        "remesh", "Make a mesh of triangles or quads of one edge length on a network");
     parser->add_option("MESH", arguments->input, "Triangle mesh (- for standard input)")
         ->required();
     parser->add_option(
@@ -122,10 +173,10 @@ Command add_remesh_command(CLI::App& program) {
         ->add_option("-o,--output", arguments->outputs,
                      "Mesh file by extension (- for OFF on standard output), several with commas; "
                      "OBJ, PLY, Medit, gmsh and VTP also hold the network's curves, .sharp and .fl "
-                     "these alone")
+                     "these alone; quads: OBJ, OFF, VTU")
         ->delimiter(',')
         ->required();
-    parser->add_option("--type", arguments->type, "Elements: tri (quad: not in this version)")
+    parser->add_option("--type", arguments->type, "Elements: tri, quad")
         ->check(CLI::IsMember({"tri", "quad"}))
         ->capture_default_str();
     parser->add_option("--iterations", arguments->iterations, "Rounds of remeshing")
@@ -140,6 +191,22 @@ Command add_remesh_command(CLI::App& program) {
     parser->add_option("--with", arguments->with, "Remesher: own, or cgal to compare with")
         ->check(CLI::IsMember({"own", "cgal"}))
         ->capture_default_str();
+    parser
+        ->add_option("--tier", arguments->tier,
+                     "Quads: best, or pairing (of triangles, without a cross field)")
+        ->check(CLI::IsMember({"best", "pairing"}))
+        ->capture_default_str();
+    parser
+        ->add_option("--guidance", arguments->guidance,
+                     "Quads: what the cross field follows: network, none, or threshold (the "
+                     "network's arcs above a curvature)")
+        ->check(CLI::IsMember({"network", "none", "threshold"}))
+        ->capture_default_str();
+    parser
+        ->add_option("--threshold", arguments->threshold_degrees,
+                     "Degrees that the surface turns by at an arc, with --guidance threshold")
+        ->check(CLI::Range(0.0, 180.0))
+        ->capture_default_str();
     add_scale_arguments(*parser, arguments->scale);
     add_mesh_arguments(*parser, arguments->mesh);
     add_common_arguments(*parser, arguments->common);
@@ -147,6 +214,7 @@ Command add_remesh_command(CLI::App& program) {
         "Example:\n"
         "  scalefcn remesh part.stl --network part_2pct.fcn.json -o part_2pct.obj\n"
         "  scalefcn remesh part.stl --network part_2pct.fcn.json -o part_2pct.mesh,part_2pct.vtp\n"
+        "  scalefcn remesh part.stl --network part_2pct.fcn.json --type quad -o part_quads.obj\n"
         "  scalefcn remesh part.stl --edge-length 2.4 -o part_plain.obj");
     return {parser, [arguments] { return remesh(*arguments); }};
 }

@@ -8,6 +8,7 @@
 
 #include "app/command.h"
 #include "app/inputs.h"
+#include "meshing/quad_files.h"
 
 namespace fcn::app {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 bool has_format(const std::string& path, OutputKind kind) {
     if (kind == OutputKind::Mesh) return has_mesh_extension(path);
     if (kind == OutputKind::MeshWithCurves) return has_mesh_output_extension(path);
+    if (kind == OutputKind::Quads) return has_quad_extension(path);
     return kind == OutputKind::Other || has_network_extension(path);
 }
 
@@ -58,6 +60,7 @@ void prepare_output(const std::string& path, OutputKind kind, const CommonArgume
         throw UsageError(fmt::format("{}: no {} format goes by this name (known: {})", path,
                                      kind == OutputKind::Network ? "network" : "mesh",
                                      kind == OutputKind::Network ? network_extensions()
+                                     : kind == OutputKind::Quads ? quad_extensions()
                                      : kind == OutputKind::Mesh  ? mesh_extensions()
                                                                  : mesh_output_extensions()));
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
@@ -76,6 +79,11 @@ void save_mesh(const std::string& path, const LoadedMesh& mesh) {
         return print_all(read_file(scratch.path() / "mesh.off"));
     }
     write_mesh(path, mesh);
+}
+
+void save_quads(const std::string& path, const QuadMesh& mesh) {
+    if (path == "-") return print_all(quads_to_text(mesh, "off"));
+    write_quads(path, mesh);
 }
 
 void save_network(const std::string& path, const FeatureCurveNetwork& network,

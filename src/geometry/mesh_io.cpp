@@ -206,6 +206,11 @@ LoadedMesh read_mesh(const fs::path& path, const ReadOptions& options) {
     return load(read_file(path), path == "-" ? "standard input" : path.string(), options);
 }
 
+PolygonSoup read_polygons(const fs::path& path) {
+    return read_soup(read_file(path), path == "-" ? "standard input" : path.string(),
+                     extension_of(path));
+}
+
 void write_mesh(const fs::path& path, const LoadedMesh& mesh) {
     const Format* format = format_of_extension(extension_of(path));
     if (format == nullptr) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct PolygonSoup {
     std::size_t polygon_count() const { return corner_begin.size() - 1; }
     void close_polygon() { corner_begin.push_back(corners.size()); }
 };
+
+/// What a mesh file says, as read_mesh reads it before any repair. Throws InputError.
+PolygonSoup read_polygons(const std::filesystem::path& path);
 
 /// Triangles with one label each (or none), every index valid.
 struct TriangleSoup {

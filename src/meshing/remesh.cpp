@@ -59,6 +59,7 @@ RemeshResult remesh_triangles(const LoadedMesh& mesh, const FeatureCurveNetwork&
     result.statistics.bad_faces_after = statistics.incremental.angles.bad_after;
     report_broken(work, network, result);
     fill_output(mesh, work.mesh.to_marked_mesh(), result);
+    result.feature_sources = find_sources(work, result.feature_edges);
     result.seconds = seconds();
     return result;
 }

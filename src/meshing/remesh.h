@@ -40,10 +40,16 @@ struct RefinedPlace {
     double edge_length = 0;  ///< there, growing with the distance
 };
 
+/// Where on the network an edge lies; -1: unknown, or the network has no segments.
+struct FeatureSource {
+    int arc = -1, segment = -1;
+};
+
 struct RemeshResult {
     LoadedMesh mesh;  ///< labels travel from the input
     /// Pairs of vertex indices of `mesh` that lie on the protected network.
     std::vector<std::array<int, 2>> feature_edges;
+    std::vector<FeatureSource> feature_sources;  ///< per feature edge; own remesher only
     /// Segments of the network (arcs if it has none) of which a piece is not a single edge.
     std::vector<int> broken_segments;
     /// Faces whose smallest angle lies between two protected edges and is under 30 degrees.

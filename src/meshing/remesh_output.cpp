@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "geometry/errors.h"
 #include "meshing/triangle_shape.h"
@@ -109,6 +110,50 @@ void fill_output(const LoadedMesh& input, const MarkedMesh& remeshed, RemeshResu
     }
     for (const FaceHandle face : remeshed.mesh.faces())
         if (is_forced(remeshed, face)) result.forced_faces.push_back(face.idx());
+}
+
+std::vector<FeatureSource> find_sources(const NetworkInMesh& embedded,
+                                        const std::vector<std::array<int, 2>>& feature_edges) {
+    const auto count = static_cast<std::size_t>(embedded.mesh.vertex_end());
+    std::vector<std::vector<int>> edges_at(count);
+    for (int e = 0; e < static_cast<int>(feature_edges.size()); ++e)
+        for (const int v : feature_edges[static_cast<std::size_t>(e)])
+            edges_at[static_cast<std::size_t>(v)].push_back(e);
+    std::vector<bool> is_station(count, false);
+    for (const int v : embedded.mesh.tracked())
+        if (v >= 0) is_station[static_cast<std::size_t>(v)] = true;
+    std::multimap<std::pair<int, int>, int> pieces;  // by the vertices of their ends
+    for (std::size_t i = 0; i < embedded.pieces.pieces.size(); ++i) {
+        const FeaturePiece& piece = embedded.pieces.pieces[i];
+        const int from = embedded.mesh.tracked()[static_cast<std::size_t>(piece.from)];
+        const int to = embedded.mesh.tracked()[static_cast<std::size_t>(piece.to)];
+        pieces.emplace(std::pair(std::min(from, to), std::max(from, to)), static_cast<int>(i));
+    }
+    std::vector<FeatureSource> sources(feature_edges.size());
+    std::vector<bool> is_done(feature_edges.size(), false);
+    const auto trace = [&](int start, int edge) {
+        std::vector<int> chain;
+        int v = start;
+        while (edge >= 0 && !is_done[static_cast<std::size_t>(edge)]) {
+            is_done[static_cast<std::size_t>(edge)] = true;
+            chain.push_back(edge);
+            const auto& ends = feature_edges[static_cast<std::size_t>(edge)];
+            v = ends[0] == v ? ends[1] : ends[0];
+            const auto& here = edges_at[static_cast<std::size_t>(v)];
+            if (is_station[static_cast<std::size_t>(v)] || here.size() != 2) break;
+            edge = here[0] == edge ? here[1] : here[0];
+        }
+        const auto found = pieces.find({std::min(start, v), std::max(start, v)});
+        if (found == pieces.end()) return;
+        const FeaturePiece& piece = embedded.pieces.pieces[static_cast<std::size_t>(found->second)];
+        for (const int e : chain) sources[static_cast<std::size_t>(e)] = {piece.arc, piece.segment};
+        pieces.erase(found);
+    };
+    for (int v = 0; v < embedded.mesh.vertex_end(); ++v)
+        if (is_station[static_cast<std::size_t>(v)])
+            for (const int e : edges_at[static_cast<std::size_t>(v)])
+                if (!is_done[static_cast<std::size_t>(e)]) trace(v, e);
+    return sources;
 }
 
 }  // namespace fcn

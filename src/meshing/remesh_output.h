@@ -16,4 +16,9 @@ void report_broken(const NetworkInMesh& embedded, const FeatureCurveNetwork& net
 /// Sets the result's mesh, feature edges and forced faces.
 void fill_output(const LoadedMesh& input, const MarkedMesh& remeshed, RemeshResult& result);
 
+/// For each feature edge the piece of the network that it is part of: pieces are chains of feature
+/// edges between stations.
+std::vector<FeatureSource> find_sources(const NetworkInMesh& embedded,
+                                        const std::vector<std::array<int, 2>>& feature_edges);
+
 }  // namespace fcn

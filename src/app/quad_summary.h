@@ -1,0 +1,19 @@
+#pragma once
+
+#include "app/json_summary.h"
+#include "meshing/measure.h"
+#include "meshing/quad_quality.h"
+#include "meshing/remesh_quads.h"
+
+namespace fcn::app {
+
+Json quad_quality_json(const QuadQuality& quality);
+Json alignment_json(const QuadAlignment& alignment);
+/// How quads were made, without measures: tier, reason, edge length, ...
+Json quad_result_json(const QuadResult& result, bool has_timings);
+std::string to_string(QuadTier tier);
+
+/// One line: counts, scaled Jacobians, irregular vertices, inverted corners.
+std::string quad_quality_text(const QuadQuality& quality);
+
+}  // namespace fcn::app

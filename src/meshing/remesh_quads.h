@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/mesh_io.h"
+#include "meshing/quad_mesh.h"
+#include "network/network.h"
+
+namespace fcn {
+
+class ReferenceSurface;
+
+/// How quads come to be: from a cross field and a map to the plane, or from pairs of triangles.
+enum class QuadTier { Pairing = 0, Field = 1 };
+
+/// What the cross field is told of the network.
+enum class QuadGuidance {
+    Network,    ///< to follow its curves, each with its weight
+    None,       ///< nothing but boundaries
+    Threshold,  ///< to follow the curves above a curvature, as if there were no adaptation
+};
+
+struct QuadOptions {
+    double edge_length = 0;                ///< target h of the quads, mesh units, > 0
+    QuadTier best_tier = QuadTier::Field;  ///< the first to be tried
+    QuadGuidance guidance = QuadGuidance::Network;
+    double threshold = 0.8;  ///< radians, for QuadGuidance::Threshold
+    int iterations = 10;     ///< of remeshing triangles, in 1 .. 1000
+    int smoothing_rounds = 30;
+    const ReferenceSurface* reference = nullptr;  ///< of the mesh, made already; not owned
+};
+
+struct QuadResult {
+    QuadMesh mesh;
+    QuadTier tier = QuadTier::Pairing;
+    std::string reason;      ///< why the tier is not the one asked for; empty: it is
+    double edge_length = 0;  ///< that was aimed at in the end
+    int inverted_corners = 0;
+    std::vector<int> broken_segments;  ///< of the network, that are no chains of edges of the mesh
+    std::vector<std::string> warnings;
+    double seconds = 0;
+};
+
+/// A mesh of quads alone with about the given edge length and the input's topology, on the
+/// surface, guided by the network. Deterministic. Throws InputError.
+QuadResult remesh_quads(const LoadedMesh& mesh, const FeatureCurveNetwork& network,
+                        const QuadOptions& options);
+
+/// The way that never fails: triangles of twice the length with the network's segments as edges,
+/// paired and cut at their middles. Segments are chains of edges, mostly single ones.
+QuadResult quads_by_pairing(const LoadedMesh& mesh, const FeatureCurveNetwork& network,
+                            const QuadOptions& options);
+
+}  // namespace fcn
