@@ -2,7 +2,8 @@
 // Kobbelt 2016 (section 6.2) as soft guides: smooth connection (face_connection.h), guides
 // (field_guides.h), a field by diffusion (field_smoothing.h), then its turns are fixed, pairs of
 // singularities that are too close are cancelled (singularity_merging.h), and the angles are
-// relaxed once more (matched_field.h).
+// relaxed once more (matched_field.h), on the surface as it is: what was smoothed away has done its
+// work when the singularities are known, and the map will live on the surface.
 #include "meshing/field_design.h"
 
 #include <chrono>
@@ -95,7 +96,9 @@ FieldDesign design_field(const QuadDomain& domain, const FieldOptions& options) 
     if (options.curve_strength > 0) merging.is_kept = curve_vertices(domain, kStrong);
     design.merged_pairs = merge_singularities(domain.mesh, connection, merging, matched);
     separate_quarters(domain.mesh, connection, kApart * h, matched);
-    if (!straighten(connection, guides, matched))
+    const FaceConnection exact = connect_faces(domain.mesh);
+    reconnect(connection, exact, matched);
+    if (!straighten(exact, guides, matched))
         design.failure = "the angles of the cross field cannot be solved for";
     design.field = std::move(matched.field);
     design.singularities = inner_singularities(domain.mesh, matched.indices);

@@ -83,6 +83,12 @@ void turn_link(const Mesh& mesh, const FaceConnection& connection, std::size_t l
     matched.indices[at(mesh.to_vertex_handle(h).idx())] -= turns;
 }
 
+void reconnect(const FaceConnection& before, const FaceConnection& after, MatchedField& matched) {
+    for (std::size_t i = 0; i < matched.bends.size(); ++i)
+        matched.bends[i] += std::remainder(before.links[i].rotation - after.links[i].rotation,
+                                           2 * std::numbers::pi);
+}
+
 bool straighten(const FaceConnection& connection, const std::vector<FieldGuide>& guides,
                 MatchedField& matched, double far) {
     MatchedField next = matched;

@@ -25,6 +25,9 @@ MatchedField match_arms(const Mesh& mesh, const FaceConnection& connection,
 void turn_link(const Mesh& mesh, const FaceConnection& connection, std::size_t link, int turns,
                MatchedField& matched);
 
+/// The same turns seen by another connection of the same mesh.
+void reconnect(const FaceConnection& before, const FaceConnection& after, MatchedField& matched);
+
 /// The smoothest angles with these turns (Bommes, Zimmer, Kobbelt 2009, with the integers fixed).
 /// First without the guides that are more than `far` radians from the arms, which the turns may
 /// have taken elsewhere; then each guide pulls the arm nearest to it. Returns whether the system
