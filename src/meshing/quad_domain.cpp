@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "geometry/errors.h"
+#include "meshing/hole_filling.h"
 #include "meshing/incremental_remeshing.h"
 #include "meshing/network_embedding.h"
 #include "meshing/remesh_output.h"
@@ -150,17 +151,8 @@ void remesh(WorkingMesh& mesh, const ReferenceSurface& reference, const EdgeTarg
     flip_for_angles(mesh, target);
 }
 
-}  // namespace
-
-QuadDomain make_quad_domain(const LoadedMesh& input, const FeatureCurveNetwork& network,
-                            const QuadDomainOptions& options) {
-    RemeshOptions checked;
-    checked.edge_length = options.edge_length;
-    checked.iterations = options.iterations;
-    check_remesh_input(input, checked);
-    const std::unique_ptr<ReferenceSurface> own =
-        options.reference ? nullptr : std::make_unique<ReferenceSurface>(input.mesh);
-    const ReferenceSurface& reference = options.reference ? *options.reference : *own;
+QuadDomain domain_of(const LoadedMesh& input, const FeatureCurveNetwork& network,
+                     const ReferenceSurface& reference, const QuadDomainOptions& options) {
     NetworkInMesh work = options.is_guided
                              ? embed_network(input, network, options.edge_length, reference)
                              : NetworkInMesh{working_mesh(input), {}, {}};
@@ -186,6 +178,39 @@ QuadDomain make_quad_domain(const LoadedMesh& input, const FeatureCurveNetwork& 
     domain.face_label = std::move(marked.face_label);
     domain.mesh = std::move(marked.mesh);
     return domain;
+}
+
+/// Numbers of arcs, segments and faces as the caller knows them.
+QuadDomain domain_of_filled(const LoadedMesh& input, const FeatureCurveNetwork& network,
+                            const FilledMesh& filled, const QuadDomainOptions& options) {
+    const KeptNetwork kept = without_filled_loops(network, filled);
+    QuadDomain domain =
+        domain_of(filled.mesh, kept.network, ReferenceSurface(filled.mesh.mesh), options);
+    for (int& arc : domain.edge_arc)
+        if (arc >= 0) arc = kept.arcs[at(arc)];
+    for (int& segment : domain.edge_segment)
+        if (segment >= 0) segment = kept.segments[at(segment)];
+    for (int& place : domain.vertex_place)
+        if (place >= static_cast<int>(input.mesh.n_faces())) place = -1;
+    domain.filled_holes = filled.holes;
+    return domain;
+}
+
+}  // namespace
+
+QuadDomain make_quad_domain(const LoadedMesh& input, const FeatureCurveNetwork& network,
+                            const QuadDomainOptions& options) {
+    RemeshOptions checked;
+    checked.edge_length = options.edge_length;
+    checked.iterations = options.iterations;
+    check_remesh_input(input, checked);
+    if (options.filled_loop > 0) {
+        const FilledMesh filled = fill_short_loops(input, options.filled_loop);
+        if (!filled.holes.empty()) return domain_of_filled(input, network, filled, options);
+    }
+    const std::unique_ptr<ReferenceSurface> own =
+        options.reference ? nullptr : std::make_unique<ReferenceSurface>(input.mesh);
+    return domain_of(input, network, options.reference ? *options.reference : *own, options);
 }
 
 }  // namespace fcn

@@ -13,6 +13,7 @@
 #include "geometry/models.h"
 #include "meshing/field_design.h"
 #include "meshing/field_file.h"
+#include "meshing/quad_holes.h"
 #include "meshing/sample_meshes.h"
 #include "meshing/sample_networks.h"
 
@@ -373,6 +374,72 @@ TEST(QuadDomain, CurvesAreApart) {
                       1e-9);
         }
     }
+}
+
+/// A rectangle without the faces in two squares of different size.
+LoadedMesh rectangle_with_holes() {
+    const Mesh whole = rectangle(2, 1, 40, 20);
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> faces;
+    for (const VertexHandle v : whole.vertices()) points.push_back(whole.point(v));
+    for (const FaceHandle face : whole.faces()) {
+        const auto [a, b, c] = face_vertices(whole, face);
+        const Vec3 p =
+            (points[static_cast<std::size_t>(a.idx())] + points[static_cast<std::size_t>(b.idx())] +
+             points[static_cast<std::size_t>(c.idx())]) /
+            3;
+        const bool is_small = std::abs(p[0] - 0.525) < 0.025 && std::abs(p[1] - 0.525) < 0.025;
+        const bool is_large = std::abs(p[0] - 1.5) < 0.2 && std::abs(p[1] - 0.5) < 0.2;
+        if (!is_small && !is_large) faces.push_back({a.idx(), b.idx(), c.idx()});
+    }
+    return mesh_from_soup(points, faces);
+}
+
+TEST(QuadDomain, ShortLoopsAreFilled) {
+    const LoadedMesh input = rectangle_with_holes();
+    ASSERT_EQ(euler(input.mesh), -1);
+    FeatureCurveNetwork network = test::crease_network(input.mesh, 0.5);
+    for (NetworkArc& arc : network.arcs) arc.kind = ArcKind::Boundary;
+    QuadDomainOptions options;
+    options.edge_length = 0.05;
+    EXPECT_EQ(euler(make_quad_domain(input, network, options).mesh), -1);
+    options.filled_loop = 0.3;
+    const QuadDomain domain = make_quad_domain(input, network, options);
+    EXPECT_EQ(euler(domain.mesh), 0);
+    ASSERT_EQ(domain.filled_holes.size(), 1u);
+    EXPECT_LT((domain.filled_holes[0] - Vec3(0.525, 0.525, 0)).norm(), 1e-9);
+    for (const EdgeHandle edge : domain.mesh.edges()) {
+        const int arc = domain.edge_arc[static_cast<std::size_t>(edge.idx())];
+        EXPECT_EQ(arc >= 0, domain.mesh.is_boundary(edge));
+        if (arc < 0) continue;
+        // Arcs keep the numbers that the caller knows.
+        const Vec3 p = domain.mesh.calc_edge_midpoint(edge);
+        double nearest = 1;
+        for (const ArcSample& sample : network.arcs[static_cast<std::size_t>(arc)].samples)
+            nearest = std::min(nearest, (sample.position - p).norm());
+        EXPECT_LT(nearest, 0.05);
+    }
+    // Quads that are left out make the holes again.
+    QuadMesh quads;
+    for (int j = 0; j <= 5; ++j)
+        for (int i = 0; i <= 10; ++i) quads.points.push_back({0.2 * i, 0.2 * j, 0});
+    for (int j = 0; j < 5; ++j)
+        for (int i = 0; i < 10; ++i) {
+            const int v = 11 * j + i;
+            quads.faces.push_back({v, v + 1, v + 12, v + 11});
+        }
+    EXPECT_EQ(open_holes(quads, domain.filled_holes), 1);
+    const QuadTopology topology = check_topology(quads);
+    EXPECT_EQ(topology.fault, "");
+    EXPECT_EQ(topology.euler_characteristic, 0);
+    EXPECT_EQ(topology.boundary_loops, 2);
+    const int more = open_holes(quads, std::vector<Vec3>(50, Vec3(1, 0.5, 0)));
+    EXPECT_LT(more, 50);  // there is room for a few
+    EXPECT_EQ(check_topology(quads).fault, "");
+    EXPECT_EQ(check_topology(quads).boundary_loops, 2 + more);
+    // A component that is little more than a loop stays open.
+    options.filled_loop = 100;
+    EXPECT_EQ(euler(make_quad_domain(input, network, options).mesh), -1);
 }
 
 }  // namespace
