@@ -17,12 +17,14 @@
 namespace fcn {
 namespace {
 
-constexpr double kShrink = 0.65;        ///< of an edge length around a fault, a round
-constexpr double kLeast = 0.12;         ///< in targets: edges are not asked to be shorter
-constexpr int kIterations = 4;          ///< of remeshing, a round
-constexpr int kFirstCut = 1;            ///< round from which features are cut
-constexpr double kLeastQuality = 0.15;  ///< of faces at a vertex that is moved to a far sample
-constexpr double kLeastAngle = 2;       ///< radians: a sharper tip has no room for good triangles
+constexpr double kShrink = 0.65;          ///< of an edge length around a fault, a round
+constexpr double kLeast = 0.12;           ///< in targets: edges are not asked to be shorter
+constexpr double kPinhole = 0.5;          ///< in targets: boundary edges below that are no choice
+constexpr double kLeastAtPinhole = 0.03;  ///< in targets, since checks for crossings slow down
+constexpr int kIterations = 4;            ///< of remeshing, a round
+constexpr int kFirstCut = 1;              ///< round from which features are cut
+constexpr double kLeastQuality = 0.15;    ///< of faces at a vertex that is moved to a far sample
+constexpr double kLeastAngle = 2;         ///< radians: a sharper tip has no room for good triangles
 
 /// The curves of a network as degenerate triangles.
 std::optional<ReferenceSurface> curves_of(const FeatureCurveNetwork& network) {
@@ -88,12 +90,25 @@ private:
 
     void ask_at_face(int f, bool is_cutting) {
         ask(face_center(mesh_, f));
+        ask_at_pinhole(f);
         if (!is_cutting) return;
         for (int h = 3 * f; h < 3 * f + 3; ++h) {
             if (mesh_.role(h) != EdgeRole::Feature) continue;
             const double length = (mesh_.point(mesh_.to(h)) - mesh_.point(mesh_.from(h))).norm();
             target_.curve_sources.add(0.5 * (mesh_.point(mesh_.from(h)) + mesh_.point(mesh_.to(h))),
                                       std::max(kLeast * target_.length, 0.5 * length));
+        }
+    }
+
+    /// Short boundary edges stay, and only edges that grow from there fit them.
+    void ask_at_pinhole(int f) {
+        for (int h = 3 * f; h < 3 * f + 3; ++h) {
+            if (mesh_.twin(h) >= 0) continue;
+            const Vec3 &a = mesh_.point(mesh_.from(h)), &b = mesh_.point(mesh_.to(h));
+            const double length = (b - a).norm();
+            const Vec3 middle = 0.5 * (a + b);
+            if (length > 0 && length < kPinhole * target_.at(middle))
+                requests_.ask(middle, length, std::max(kLeastAtPinhole * target_.length, length));
         }
     }
 
