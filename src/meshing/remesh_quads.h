@@ -31,13 +31,28 @@ struct QuadOptions {
     const ReferenceSurface* reference = nullptr;  ///< of the mesh, made already; not owned
 };
 
+/// One try at quads of one edge length along a field.
+struct QuadAttempt {
+    double edge_length = 0;
+    std::size_t triangles = 0;  ///< that carry field and map
+    int singularities = 0;
+    /// That failed: domain, field, map, extraction, or smoothing; empty: none.
+    std::string step;
+    std::string reason;  ///< empty: it succeeded
+    /// Seconds of the steps.
+    double domain = 0, field = 0, map = 0, extraction = 0, smoothing = 0;
+};
+
 struct QuadResult {
     QuadMesh mesh;
     QuadTier tier = QuadTier::Pairing;
-    std::string reason;      ///< why the tier is not the one asked for; empty: it is
-    double edge_length = 0;  ///< that was aimed at in the end
+    /// Why the tier is not the one asked for, or the edges are shorter; empty: they are as asked.
+    std::string reason;
+    std::vector<QuadAttempt> attempts;  ///< at a field
+    double edge_length = 0;             ///< that was aimed at in the end
     int inverted_corners = 0;
-    std::vector<int> broken_segments;  ///< of the network, that are no chains of edges of the mesh
+    /// Of the network, that are no chains of edges of the mesh; by pairing alone.
+    std::vector<int> broken_segments;
     std::vector<std::string> warnings;
     double seconds = 0;
 };

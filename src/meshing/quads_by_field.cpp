@@ -1,0 +1,213 @@
+// Quads along a cross field, the road of Gehre, Lim, Kobbelt 2016 (section 6.2): domain
+// (quad_domain.h), field (field_design.h; Ebke, Campen, Bommes, Kobbelt 2014), map with whole
+// numbers at singularities (quad_map.h; Bommes, Zimmer, Kobbelt 2009), exact extraction
+// (quad_extraction.h; Ebke, Bommes, Campen, Kobbelt 2013). Each step says whether it succeeded.
+// What it may fail of is mostly that singularities are too close for quads of the length, so the
+// next attempt takes a shorter one. In the end vertices move onto curves and the surface; where
+// curves would turn corners over they are left alone, since they are no more than guides.
+#include "meshing/quads_by_field.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "geometry/errors.h"
+#include "meshing/baselines.h"
+#include "meshing/quad_curves.h"
+#include "meshing/quad_map.h"
+#include "meshing/quad_smoothing.h"
+
+namespace fcn {
+namespace {
+
+constexpr int kAttempts = 4;
+constexpr double kShrinking = 0.9;
+/// Triangles of the domain are this share of a quad's edge, longer where there were too many.
+constexpr double kFineShare = 1.0 / 3, kCoarseShare = 0.5;
+constexpr double kCurveWeight = 1;  ///< of alignment in the map, against the field's
+constexpr double kManyTriangles = 60000;
+
+class Stopwatch {
+public:
+    /// Since it was made, or asked before.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - start_).count();
+        start_ = now;
+        return seconds;
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+double domain_edge_length(double area, double edge_length) {
+    // An equilateral triangle of edge 1 has an area of sqrt(3) / 4.
+    const double longest = kCoarseShare * edge_length, shortest = kFineShare * edge_length;
+    const double sparse = std::sqrt(area / kManyTriangles * 4 / std::sqrt(3.0));
+    return std::clamp(sparse, shortest, longest);
+}
+
+class FieldAttempt {
+public:
+    FieldAttempt(const LoadedMesh& input, const FeatureCurveNetwork& network,
+                 const QuadOptions& options, const QuadSteps& steps,
+                 const ReferenceSurface& reference)
+        : input_(input),
+          network_(network),
+          options_(options),
+          steps_(steps),
+          reference_(reference) {
+        for (const FaceHandle face : input.mesh.faces()) area_ += face_area(input.mesh, face);
+    }
+
+    /// Returns the mesh if the attempt's reason stays empty.
+    QuadMesh run(double edge_length, FieldQuads& quads) {
+        QuadAttempt& attempt = quads.attempts.emplace_back();
+        attempt.edge_length = edge_length;
+        const auto fail = [&](const char* step, const std::string& reason) {
+            attempt.step = step;
+            attempt.reason = reason;
+            return QuadMesh{};
+        };
+        Stopwatch watch;
+        attempt.step = "domain";
+        const QuadDomain domain = make_domain(edge_length);
+        attempt.domain = watch.lap();
+        attempt.triangles = domain.mesh.n_faces();
+        attempt.step = "field";
+        const FieldDesign field = make_field(domain, edge_length);
+        attempt.field = watch.lap();
+        attempt.singularities = static_cast<int>(field.singularities.size());
+        if (!field.failure.empty()) return fail("field", field.failure);
+        attempt.step = "map";
+        const FieldMap map = steps_.map(domain, field, edge_length);
+        attempt.map = watch.lap();
+        if (!map.failure.empty()) return fail("map", map.failure);
+        attempt.step = "extraction";
+        QuadExtraction extraction = steps_.extraction(domain.mesh, map.map);
+        attempt.extraction = watch.lap();
+        if (!extraction.fault.empty()) return fail("extraction", extraction.fault);
+        attempt.step = "smoothing";
+        const int inverted = smooth(extraction.mesh, edge_length);
+        attempt.smoothing = watch.lap();
+        if (inverted > 0) return fail("smoothing", std::to_string(inverted) + " inverted corners");
+        label_faces(extraction.mesh);
+        attempt.step.clear();
+        quads.curve_deviation_degrees = field.curve_deviation_degrees;
+        return std::move(extraction.mesh);
+    }
+
+private:
+    QuadDomain make_domain(double edge_length) const {
+        QuadDomainOptions options;
+        options.edge_length = domain_edge_length(area_, edge_length);
+        options.is_guided = options_.guidance != QuadGuidance::None;
+        options.reference = &reference_;
+        return steps_.domain(input_, network_, options);
+    }
+
+    FieldDesign make_field(const QuadDomain& domain, double edge_length) const {
+        FieldOptions options;
+        options.edge_length = edge_length;
+        return steps_.field(domain, options);
+    }
+
+    /// Returns the number of inverted corners.
+    int smooth(QuadMesh& mesh, double edge_length) const {
+        if (steps_.smoothing) return steps_.smoothing(mesh);
+        QuadCurveOptions drawing;
+        drawing.edge_length = edge_length;
+        QuadSmoothingOptions smoothing;
+        smoothing.edge_length = edge_length;
+        smoothing.rounds = options_.smoothing_rounds;
+        const bool is_guided = options_.guidance != QuadGuidance::None;
+        for (const bool with_network : {is_guided, false}) {
+            QuadMesh trial = mesh;
+            const FeatureCurveNetwork none;
+            const QuadConstraints constraints =
+                draw_to_curves(trial, input_.mesh, with_network ? network_ : none, drawing);
+            const int inverted =
+                smooth_quads(trial, constraints, reference_, smoothing).inverted_after;
+            if (inverted > 0 && with_network) continue;
+            mesh = std::move(trial);
+            return inverted;
+        }
+        return 0;
+    }
+
+    void label_faces(QuadMesh& mesh) const {
+        mesh.face_labels.clear();
+        if (input_.face_labels.empty()) return;
+        for (const auto& face : mesh.faces) {
+            Vec3 centre = Vec3::Zero();
+            for (const int v : face) centre += 0.25 * mesh.points[static_cast<std::size_t>(v)];
+            const auto corner = [&](std::size_t i) {
+                return mesh.points[static_cast<std::size_t>(face[i])];
+            };
+            const Vec3 normal = (corner(2) - corner(0)).cross(corner(3) - corner(1));
+            const double reach = (corner(2) - corner(0)).norm() + (corner(3) - corner(1)).norm();
+            ReferencePoint near = reference_.closest(centre, normal.stableNormalized(), reach, -1);
+            if (near.face < 0) near = reference_.closest(centre, Vec3::Zero(), 1e300, -1);
+            mesh.face_labels.push_back(
+                near.face < 0 ? 0 : input_.face_labels[static_cast<std::size_t>(near.face)]);
+        }
+    }
+
+    const LoadedMesh& input_;
+    const FeatureCurveNetwork& network_;
+    const QuadOptions& options_;
+    const QuadSteps& steps_;
+    const ReferenceSurface& reference_;
+    double area_ = 0;
+};
+
+}  // namespace
+
+FieldMap map_field(const QuadDomain& domain, const FieldDesign& field, double edge_length) {
+    QuadMapOptions options;
+    options.edge_length = edge_length;
+    options.soft_weight = domain.edge_weight;
+    for (double& weight : options.soft_weight) weight *= kCurveWeight;
+    QuadMapResult result = make_quad_map(domain.mesh, field.field, options);
+    return {std::move(result.map), std::move(result.fault)};
+}
+
+std::string FieldQuads::reason() const {
+    std::string text;
+    for (const QuadAttempt& attempt : attempts) {
+        if (attempt.reason.empty()) continue;
+        char length[32];
+        std::snprintf(length, sizeof length, "%.3g", attempt.edge_length);
+        text += (text.empty() ? "" : "; ") + ("edge length " + std::string(length)) + ", " +
+                attempt.step + ": " + attempt.reason;
+    }
+    return text;
+}
+
+FieldQuads quads_by_field(const LoadedMesh& mesh, const FeatureCurveNetwork& network,
+                          const QuadOptions& options, const QuadSteps& steps) {
+    if (!(options.edge_length > 0) || !std::isfinite(options.edge_length))
+        throw InputError("quads: edge length must be > 0, it is " +
+                         std::to_string(options.edge_length));
+    const std::unique_ptr<ReferenceSurface> own =
+        options.reference ? nullptr : std::make_unique<ReferenceSurface>(mesh.mesh);
+    const FeatureCurveNetwork guides = options.guidance == QuadGuidance::Threshold
+                                           ? above_curvature(network, options.threshold)
+                                           : network;
+    FieldAttempt attempt(mesh, guides, options, steps,
+                         options.reference ? *options.reference : *own);
+    FieldQuads quads;
+    double edge_length = options.edge_length;
+    for (int i = 0; i < kAttempts && !quads.is_done(); ++i, edge_length *= kShrinking) {
+        try {
+            quads.mesh = attempt.run(edge_length, quads);
+        } catch (const std::exception& error) {
+            quads.attempts.back().reason = error.what();
+        }
+    }
+    return quads;
+}
+
+}  // namespace fcn

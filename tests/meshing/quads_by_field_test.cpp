@@ -1,0 +1,149 @@
+#include "meshing/quads_by_field.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "geometry/errors.h"
+#include "meshing/quad_smoothing.h"
+#include "sample_maps.h"
+#include "sample_meshes.h"
+
+namespace fcn {
+namespace {
+
+/// Steps that give a cube of the given number of squares along each edge.
+QuadSteps cube_steps(int squares) {
+    const test::MappedMesh mapped =
+        test::mapped_patches(test::quad_cube(), {4, squares, 0.2, true, 1});
+    QuadSteps steps;
+    steps.domain = [mapped](const LoadedMesh&, const FeatureCurveNetwork&,
+                            const QuadDomainOptions&) {
+        QuadDomain domain;
+        domain.mesh = mapped.mesh;
+        return domain;
+    };
+    steps.field = [](const QuadDomain&, const FieldOptions&) { return FieldDesign{}; };
+    steps.map = [mapped](const QuadDomain&, const FieldDesign&, double) {
+        return FieldMap{mapped.map, ""};
+    };
+    return steps;
+}
+
+QuadOptions cube_options() {
+    QuadOptions options;
+    options.edge_length = 1.0 / 3;
+    return options;
+}
+
+TEST(QuadsByField, TakesTheFirstAttemptThatSucceeds) {
+    const LoadedMesh cube = test::cube(4);
+    const FieldQuads quads = quads_by_field(cube, {}, cube_options(), cube_steps(3));
+    EXPECT_TRUE(quads.is_done());
+    EXPECT_EQ(quads.reason(), "");
+    ASSERT_EQ(quads.attempts.size(), 1u);
+    EXPECT_EQ(quads.attempts[0].step, "");
+    EXPECT_EQ(quads.attempts[0].triangles, 192u);
+    EXPECT_EQ(quads.mesh.faces.size(), 54u);
+    EXPECT_EQ(count_inverted_corners(quads.mesh), 0);
+    EXPECT_TRUE(quads.mesh.face_labels.empty());
+}
+
+TEST(QuadsByField, TakesShorterEdgesAfterAFailure) {
+    QuadSteps steps = cube_steps(3);
+    std::vector<double> lengths;
+    const auto map = steps.map;
+    steps.map = [&](const QuadDomain& domain, const FieldDesign& field, double edge_length) {
+        lengths.push_back(edge_length);
+        return lengths.size() < 3 ? FieldMap{{}, "no map"} : map(domain, field, edge_length);
+    };
+    const FieldQuads quads = quads_by_field(test::cube(4), {}, cube_options(), steps);
+    EXPECT_TRUE(quads.is_done());
+    EXPECT_EQ(quads.mesh.faces.size(), 54u);
+    ASSERT_EQ(lengths.size(), 3u);
+    EXPECT_DOUBLE_EQ(lengths[1], 0.9 / 3);
+    EXPECT_DOUBLE_EQ(lengths[2], 0.81 / 3);
+    EXPECT_EQ(quads.reason(), "edge length 0.333, map: no map; edge length 0.3, map: no map");
+}
+
+/// Quads by Tier 0 after the step fails in every attempt; its name and reason are in the result.
+void expect_fallback(const QuadSteps& steps, const std::string& step, const std::string& reason) {
+    SCOPED_TRACE(step);
+    const LoadedMesh cube = test::cube(4);
+    const FieldQuads quads = quads_by_field(cube, {}, cube_options(), steps);
+    EXPECT_FALSE(quads.is_done());
+    EXPECT_TRUE(quads.mesh.faces.empty());
+    ASSERT_EQ(quads.attempts.size(), 4u);
+    for (const QuadAttempt& attempt : quads.attempts) {
+        EXPECT_EQ(attempt.step, step);
+        EXPECT_EQ(attempt.reason, reason);
+    }
+    const QuadResult result = remesh_quads(cube, {}, cube_options(), steps);
+    EXPECT_EQ(result.tier, QuadTier::Pairing);
+    EXPECT_EQ(result.reason, quads.reason());
+    EXPECT_EQ(result.inverted_corners, 0);
+    const QuadTopology topology = check_topology(result.mesh);
+    EXPECT_EQ(topology.fault, "");
+    EXPECT_EQ(topology.euler_characteristic, 2);
+}
+
+TEST(QuadsByField, FallsBackWhicheverStepFails) {
+    QuadSteps steps = cube_steps(3);
+    steps.domain = [](const LoadedMesh&, const FeatureCurveNetwork&,
+                      const QuadDomainOptions&) -> QuadDomain {
+        throw std::runtime_error("no domain");
+    };
+    expect_fallback(steps, "domain", "no domain");
+    steps = cube_steps(3);
+    steps.field = [](const QuadDomain&, const FieldOptions&) {
+        FieldDesign design;
+        design.failure = "no field";
+        return design;
+    };
+    expect_fallback(steps, "field", "no field");
+    steps = cube_steps(3);
+    steps.map = [](const QuadDomain&, const FieldDesign&, double) {
+        return FieldMap{{}, "no map"};
+    };
+    expect_fallback(steps, "map", "no map");
+    const auto map = cube_steps(3).map;
+    steps.map = [map](const QuadDomain& domain, const FieldDesign& field, double edge_length) {
+        FieldMap result = map(domain, field, edge_length);
+        std::swap(result.map.uv[5][1], result.map.uv[5][2]);
+        return result;
+    };
+    expect_fallback(steps, "extraction", "face 5: turned over");
+    steps = cube_steps(3);
+    steps.smoothing = [](QuadMesh&) { return 7; };
+    expect_fallback(steps, "smoothing", "7 inverted corners");
+}
+
+TEST(QuadsByField, IsTheFirstTier) {
+    const LoadedMesh cube = test::cube(4, true);
+    const QuadResult result = remesh_quads(cube, {}, cube_options(), cube_steps(3));
+    EXPECT_EQ(result.tier, QuadTier::Field);
+    EXPECT_EQ(result.reason, "");
+    EXPECT_EQ(result.mesh.faces.size(), 54u);
+    ASSERT_EQ(result.mesh.face_labels.size(), 54u);
+    std::map<int, int> counts;
+    for (const int label : result.mesh.face_labels) ++counts[label];
+    EXPECT_EQ(counts.size(), 6u);
+    for (const auto& [label, count] : counts) EXPECT_EQ(count, 9);
+    QuadOptions paired = cube_options();
+    paired.best_tier = QuadTier::Pairing;
+    const QuadResult other = remesh_quads(cube, {}, paired, cube_steps(3));
+    EXPECT_EQ(other.tier, QuadTier::Pairing);
+    EXPECT_EQ(other.reason, "");
+}
+
+TEST(QuadsByField, RefusesABadLength) {
+    QuadOptions options;
+    for (const double length : {0.0, -1.0, std::nan("")}) {
+        options.edge_length = length;
+        EXPECT_THROW(quads_by_field(test::cube(4), {}, options, cube_steps(3)), InputError);
+    }
+}
+
+}  // namespace
+}  // namespace fcn
