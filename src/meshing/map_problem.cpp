@@ -4,6 +4,7 @@
 // component is pinned at one vertex, which takes nothing away.
 #include "meshing/map_problem.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fcn {
@@ -88,6 +89,11 @@ private:
         return (std::lround(angle / kQuarter) & 1) == 0 ? 1 : 0;
     }
 
+    bool is_asked_for(VertexHandle vertex) const {
+        return std::binary_search(guidance_.grid_vertices.begin(), guidance_.grid_vertices.end(),
+                                  vertex.idx());
+    }
+
     void mark_integers() {
         const CutMesh& cut = problem_.cut;
         const std::size_t positions = 2 * at(cut.copy_count);
@@ -97,7 +103,8 @@ private:
         for (const FaceHandle face : mesh_.faces()) {
             const auto corners = face_vertices(mesh_, face);
             for (std::size_t i = 0; i < 3; ++i) {
-                if (cut.is_singular[at(corners[i].idx())] == 0) continue;
+                if (cut.is_singular[at(corners[i].idx())] == 0 && !is_asked_for(corners[i]))
+                    continue;
                 const std::size_t copy = at(cut.copies[at(face.idx())][i]);
                 is_integer_[2 * copy] = is_integer_[2 * copy + 1] = true;
             }

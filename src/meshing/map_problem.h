@@ -14,6 +14,7 @@ struct MapGuidance {
     double edge_length = 0;  ///< > 0: of quads, one unit of the map
     /// Per edge: whether its image has to lie on a grid line; empty: none. Boundaries always have.
     std::vector<std::uint8_t> is_hard;
+    std::vector<int> grid_vertices;  ///< to be at grid points besides singular ones; ascending
     /// Per edge, >= 0: how much its image should run along the grid; empty: none.
     std::vector<double> soft_weight;
 };

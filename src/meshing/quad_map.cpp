@@ -23,7 +23,10 @@ using Eigen::VectorXd;
 constexpr double kGrid = 1073741824.0;  ///< 2^30 coordinates a unit
 constexpr double kLargest = 4194304.0;  ///< 2^22: of a coordinate
 constexpr double kFirstStep = 0.1;      ///< of the way from the seamless map to the integers
-constexpr double kLeastStep = 0.004;
+constexpr int kSeamlessAttempts = 5;    ///< at a seamless map that winds as the field does
+constexpr double kTightStep = 0.02;     ///< below, everything moves to make room
+constexpr double kLeastStep = 0.001;
+constexpr int kRelaxingSteps = 15;
 
 class Stopwatch {
 public:
@@ -47,14 +50,12 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 class MapMaker {
 public:
     MapMaker(const Mesh& mesh, const CrossField& field, const QuadMapOptions& options)
-        : mesh_(mesh), indices_(vertex_indices(mesh, field)) {
-        problem_ = make_map_problem(mesh, field, options);
-        result_.fault = problem_.fault;
-        const auto& singular = problem_.cut.is_singular;
-        statistics().singular_vertices =
-            static_cast<int>(std::count(singular.begin(), singular.end(), 1));
-        statistics().cutting = watch_.lap();
-        if (has_fault() || !make_seamless() || !choose_integers()) return;
+        : mesh_(mesh), field_(field), indices_(vertex_indices(mesh, field)), guidance_(options) {
+        for (bool is_complete = false; !is_complete;) {
+            if (!make_seamless()) return;
+            is_complete = !add_corners();
+        }
+        choose_integers();
         reach_integers();
         statistics().untangling += watch_.lap();
         finish();
@@ -69,38 +70,102 @@ private:
         return corner_map(problem_, problem_.unknowns.basis * free);
     }
 
-    std::size_t wrong_windings(const CornerMap& map) const {
-        std::size_t count = 0;
-        for (const VertexHandle vertex : mesh_.vertices()) {
-            if (mesh_.is_isolated(vertex)) continue;
-            const int regular = mesh_.is_boundary(vertex) ? 2 : 4;
-            const int index = indices_[static_cast<std::size_t>(vertex.idx())];
-            if (quarters_around(mesh_, map, vertex) != regular - index) ++count;
-        }
-        return count;
+    /// Around a boundary vertex the field's index may be uncertain by half a turn: there the map
+    /// decides, as long as the vertex stays a corner or none.
+    bool is_winding_right(const CornerMap& map, VertexHandle vertex) const {
+        const int index = indices_[static_cast<std::size_t>(vertex.idx())];
+        const int quarters = quarters_around(mesh_, map, vertex);
+        if (!mesh_.is_boundary(vertex)) return quarters == 4 - index;
+        return quarters >= 1 && quarters <= 4 && ((quarters - index) & 1) == 0;
+    }
+    /// Vertices around which the map winds otherwise than the field.
+    std::vector<VertexHandle> wrong_windings(const CornerMap& map) const {
+        std::vector<VertexHandle> result;
+        for (const VertexHandle vertex : mesh_.vertices())
+            if (!mesh_.is_isolated(vertex) && !is_winding_right(map, vertex))
+                result.push_back(vertex);
+        return result;
     }
 
     bool make_seamless() {
+        problem_ = make_map_problem(mesh_, field_, guidance_);
+        result_.fault = problem_.fault;
+        if (has_fault()) return false;
+        const auto& singular = problem_.cut.is_singular;
+        statistics().singular_vertices =
+            static_cast<int>(std::count(singular.begin(), singular.end(), 1));
+        statistics().cutting += watch_.lap();
         energy_ = reduced(alignment_energy(problem_), problem_);
         const std::vector<bool> none(is_integer().size(), false);
         const VectorXd zero = VectorXd::Zero(static_cast<int>(none.size()));
-        const VectorXd values = minimum(energy_, none, zero);
-        statistics().solving = watch_.lap();
-        if (values.size() == 0) {
-            result_.fault = "no seamless map: the linear system cannot be solved";
-            return false;
+        std::vector<double> stiffness(mesh_.n_faces(), 1);
+        for (int attempt = 0; attempt < kSeamlessAttempts; ++attempt) {
+            const QuadraticEnergy stiff =
+                attempt == 0 ? energy_ : reduced(alignment_energy(problem_, stiffness), problem_);
+            const VectorXd values = minimum(stiff, none, zero);
+            if (values.size() == 0) {
+                result_.fault = "no seamless map: the linear system cannot be solved";
+                return false;
+            }
+            statistics().solving += watch_.lap();
+            const UntanglingResult untangled = untangle(problem_, values, none);
+            const auto windings = wrong_windings(map_of(untangled.values));
+            statistics().newton_steps += untangled.iterations;
+            statistics().untangling += watch_.lap();
+            const bool is_better =
+                attempt == 0 || untangled.turned_over + windings.size() <
+                                    statistics().seamless_after + statistics().seamless_windings;
+            if (is_better) {
+                seamless_ = untangled.values;
+                statistics().seamless_before = untangled.turned_over_before;
+                statistics().seamless_after = untangled.turned_over;
+                statistics().seamless_windings = windings.size();
+            }
+            if (untangled.turned_over + windings.size() == 0) break;
+            stiffen(values, windings, stiffness);
         }
-        const UntanglingResult untangled = untangle(problem_, values, none);
-        seamless_ = untangled.values;
-        statistics().seamless_before = untangled.turned_over_before;
-        statistics().seamless_after = untangled.turned_over;
-        statistics().seamless_windings = wrong_windings(map_of(seamless_));
-        statistics().newton_steps = untangled.iterations;
-        statistics().untangling = watch_.lap();
         return true;
     }
 
-    bool choose_integers() {
+    /// More weight for what is turned over in the nearest map, and near wrong windings (Bommes,
+    /// Zimmer, Kobbelt 2009, section 5.3, with the faces' neighbourhoods instead of a smoothed
+    /// distortion).
+    void stiffen(const VectorXd& values, const std::vector<VertexHandle>& windings,
+                 std::vector<double>& stiffness) const {
+        std::vector<std::uint8_t> is_near(mesh_.n_vertices(), 0);
+        for (const VertexHandle vertex : windings)
+            is_near[static_cast<std::size_t>(vertex.idx())] = 1;
+        const std::vector<double> dets = map_determinants(problem_, values);
+        const auto& corners = problem_.cut.corners;
+        for (std::size_t f = 0; f < dets.size(); ++f)
+            for (std::size_t i = 0; i < 3 && !(dets[f] > 0.05); ++i)
+                is_near[static_cast<std::size_t>(corners[f][i])] = 1;
+        for (int ring = 0; ring < 3; ++ring) {
+            const auto before = is_near;
+            for (std::size_t f = 0; f < dets.size(); ++f) {
+                const bool is_in = std::any_of(corners[f].begin(), corners[f].end(), [&](int v) {
+                    return before[static_cast<std::size_t>(v)] != 0;
+                });
+                if (!is_in) continue;
+                stiffness[f] *= 1.7;
+                for (const int v : corners[f]) is_near[static_cast<std::size_t>(v)] = 1;
+            }
+        }
+    }
+
+    /// Corners of the boundary that came about in the seamless map, and are not bound to be grid
+    /// points so far: true if there are any.
+    bool add_corners() {
+        if (!guidance_.grid_vertices.empty()) return false;
+        const CornerMap map = map_of(seamless_);
+        for (const VertexHandle vertex : mesh_.vertices())
+            if (!mesh_.is_isolated(vertex) && mesh_.is_boundary(vertex) &&
+                quarters_around(mesh_, map, vertex) == 4)
+                guidance_.grid_vertices.push_back(vertex.idx());
+        return !guidance_.grid_vertices.empty();
+    }
+
+    void choose_integers() {
         const IntegerEnergy integers = integer_energy(energy_, is_integer());
         statistics().integers = static_cast<int>(integers.unknowns.size());
         CoarseLayout layout;
@@ -114,11 +179,10 @@ private:
         for (std::size_t i = 0; i < integers.unknowns.size(); ++i)
             target_[integers.unknowns[i]] = chosen.integers[static_cast<int>(i)];
         statistics().quantising = watch_.lap();
-        return true;
     }
 
     bool is_sound(const UntanglingResult& untangled) const {
-        return untangled.turned_over == 0 && wrong_windings(map_of(untangled.values)) == 0;
+        return untangled.turned_over == 0 && wrong_windings(map_of(untangled.values)).empty();
     }
 
     void reach_integers() {
@@ -127,7 +191,10 @@ private:
             result_.fault = "no map for the integers: the linear system cannot be solved";
             return;
         }
-        integral_ = untangle(problem_, values, is_integer());
+        UntanglingOptions options;
+        options.iterations = 30;
+        options.is_all_moving = false;
+        integral_ = untangle(problem_, values, is_integer(), options);
         statistics().newton_steps += integral_.iterations;
         statistics().quantised_before = integral_.turned_over_before;
         if (!is_sound(integral_)) walk_to_integers();
@@ -143,8 +210,10 @@ private:
         if (way.size() == 0) return;
         UntanglingOptions options;
         options.iterations = 20;
+        options.is_all_moving = false;
         VectorXd now = seamless_;
         double gone = 0, step = kFirstStep;
+        bool is_relaxed = false;
         while (gone < 1 && step > kLeastStep) {
             const double next = std::min(1.0, gone + step);
             VectorXd values = now + (next - gone) * way;
@@ -155,8 +224,17 @@ private:
             ++statistics().integer_steps;
             if (!is_sound(tried)) {
                 step /= 2;
+                if (step < kTightStep && !is_relaxed) {
+                    const UntanglingResult relaxed =
+                        relax(problem_, now, is_integer(), kRelaxingSteps);
+                    statistics().newton_steps += relaxed.iterations;
+                    if (is_sound(relaxed)) now = relaxed.values;
+                    is_relaxed = true;
+                    step = kTightStep;
+                }
                 continue;
             }
+            is_relaxed = false;
             now = tried.values;
             gone = next;
             step = std::min(kFirstStep, 1.5 * step);
@@ -173,7 +251,7 @@ private:
         } else {
             const VectorXd all = problem_.unknowns.basis * snapped(integral_.values);
             result_.map = corner_map(problem_, all);
-            const std::size_t windings = wrong_windings(result_.map);
+            const std::size_t windings = wrong_windings(result_.map).size();
             if (!(all.cwiseAbs().maxCoeff() < kLargest))
                 result_.fault = "the map is too large for exact coordinates";
             else if (windings > 0)
@@ -191,7 +269,9 @@ private:
     }
 
     const Mesh& mesh_;
+    const CrossField& field_;
     std::vector<int> indices_;
+    MapGuidance guidance_;
     MapProblem problem_;
     QuadraticEnergy energy_;
     VectorXd seamless_, target_;

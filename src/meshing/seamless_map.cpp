@@ -12,7 +12,7 @@ constexpr double kLeastPivot = 1e-10;
 
 }  // namespace
 
-QuadraticEnergy alignment_energy(const MapProblem& problem) {
+QuadraticEnergy alignment_energy(const MapProblem& problem, const std::vector<double>& stiffness) {
     const int count = static_cast<int>(problem.unknowns.basis.rows());
     QuadraticEnergy energy;
     energy.right = Eigen::VectorXd::Zero(count);
@@ -20,11 +20,12 @@ QuadraticEnergy alignment_energy(const MapProblem& problem) {
     entries.reserve(18 * problem.shapes.size() + 4 * problem.soft.size());
     for (std::size_t f = 0; f < problem.shapes.size(); ++f) {
         const FaceShape& shape = problem.shapes[f];
-        const Eigen::Matrix3d local = shape.area * shape.gradients.transpose() * shape.gradients;
+        const double weight = shape.area * (stiffness.empty() ? 1 : stiffness[f]);
+        const Eigen::Matrix3d local = weight * shape.gradients.transpose() * shape.gradients;
         for (int i = 0; i < 3; ++i) {
             const int one = 2 * problem.cut.copies[f][static_cast<std::size_t>(i)];
             for (int axis = 0; axis < 2; ++axis)
-                energy.right[one + axis] += shape.area * shape.gradients(axis, i);
+                energy.right[one + axis] += weight * shape.gradients(axis, i);
             for (int j = 0; j < 3; ++j) {
                 const int other = 2 * problem.cut.copies[f][static_cast<std::size_t>(j)];
                 for (int axis = 0; axis < 2; ++axis)

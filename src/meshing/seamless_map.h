@@ -15,8 +15,10 @@ struct QuadraticEnergy {
     Eigen::VectorXd right;
 };
 
-/// Sum over faces of area |J - 1|^2 plus soft alignments, over all unknowns.
-QuadraticEnergy alignment_energy(const MapProblem& problem);
+/// Sum over faces of stiffness area |J - 1|^2 plus soft alignments, over all unknowns; without
+/// stiffness 1 everywhere.
+QuadraticEnergy alignment_energy(const MapProblem& problem,
+                                 const std::vector<double>& stiffness = {});
 /// The same over the free ones.
 QuadraticEnergy reduced(const QuadraticEnergy& energy, const MapProblem& problem);
 

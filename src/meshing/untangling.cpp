@@ -287,6 +287,16 @@ std::vector<double> map_determinants(const MapProblem& problem, const Eigen::Vec
     return result;
 }
 
+UntanglingResult relax(const MapProblem& problem, const Eigen::VectorXd& values,
+                       const std::vector<bool>& is_fixed, int iterations) {
+    UntanglingResult result;
+    result.values = values;
+    MovingPart part(problem, moving_unknowns(problem, {}, is_fixed, -1));
+    if (!part.is_empty()) result.iterations = descend(part, result.values, iterations);
+    result.turned_over = count_turned_over(map_determinants(problem, result.values));
+    return result;
+}
+
 UntanglingResult untangle(const MapProblem& problem, const Eigen::VectorXd& values,
                           const std::vector<bool>& is_fixed, const UntanglingOptions& options) {
     UntanglingResult result;
@@ -294,7 +304,7 @@ UntanglingResult untangle(const MapProblem& problem, const Eigen::VectorXd& valu
     std::vector<double> dets = map_determinants(problem, values);
     result.turned_over_before = result.turned_over = count_turned_over(dets);
     for (const int rings : {options.rings, 4 * options.rings, -1}) {
-        if (result.turned_over == 0) break;
+        if (result.turned_over == 0 || (rings < 0 && !options.is_all_moving)) break;
         MovingPart part(problem, moving_unknowns(problem, dets, is_fixed, rings));
         if (part.is_empty()) continue;
         result.iterations += descend(part, result.values, options.iterations);

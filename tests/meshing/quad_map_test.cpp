@@ -227,7 +227,7 @@ TEST(CoarseLayout, TrianglesHaveTheAreaOfTheMap) {
     field_options.edge_length = 0.1;
     const FieldDesign design = design_field(domain, field_options);
     ASSERT_EQ(design.failure, "");
-    const MapProblem problem = make_map_problem(domain.mesh, design.field, {0.1, {}, {}});
+    const MapProblem problem = make_map_problem(domain.mesh, design.field, {0.1, {}, {}, {}});
     ASSERT_EQ(problem.fault, "");
     const QuadraticEnergy energy = reduced(alignment_energy(problem), problem);
     const std::vector<bool> none(problem.unknowns.is_integer.size(), false);
