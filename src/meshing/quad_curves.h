@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "meshing/quad_mesh.h"
 #include "meshing/quad_smoothing.h"
 #include "network/network.h"
@@ -7,18 +9,18 @@
 namespace fcn {
 
 struct QuadCurveOptions {
-    double edge_length = 0;  ///< of the quads, > 0, mesh units
-    double reach = 0.4;      ///< in edge lengths: farther vertices are not drawn to a curve
-    /// Degrees that an edge may run away from a curve and still be drawn to it.
-    double most_degrees = 30;
-    double corner_degrees = 40;  ///< boundaries that turn by more have a corner there
+    double edge_length = 0;         ///< of the quads, > 0, mesh units
+    double reach = 0.75;            ///< in edge lengths: farther vertices do not move to a curve
+    double corner_degrees = 40;     ///< boundaries that turn by more have a corner there
+    std::vector<bool> is_left_out;  ///< per arc; empty: none
 };
 
-/// What vertices of a quad mesh that was made without regard to the network may do: boundary
-/// vertices stay on the boundary of `surface`, and its corners get a vertex each. Edges of the mesh
-/// that run along an arc of the network are drawn to it, those nearest to its nodes to these; they
-/// become the mesh's feature edges. Deterministic.
-QuadConstraints draw_to_curves(QuadMesh& mesh, const Mesh& surface,
+/// Moves lines of edges of a quad mesh that was made without regard to the network onto its arcs,
+/// where there are such lines; they become the mesh's feature edges. Returns what vertices may do
+/// from then on: slide along their arc, those at nodes stay there, and boundary vertices stay on
+/// the boundary of `surface`, whose corners get a vertex each. Corners of quads may be inverted.
+/// Deterministic.
+QuadConstraints move_to_curves(QuadMesh& mesh, const Mesh& surface,
                                const FeatureCurveNetwork& network, const QuadCurveOptions& options);
 
 }  // namespace fcn

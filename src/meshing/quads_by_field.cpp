@@ -4,7 +4,7 @@
 // (quad_extraction.h; Ebke, Bommes, Campen, Kobbelt 2013). Each step says whether it succeeded.
 // What it may fail of is mostly that singularities are too close for quads of the length, so the
 // next attempt takes a shorter one. In the end vertices move onto curves and the surface; where
-// curves would turn corners over they are left alone, since they are no more than guides.
+// curves spoil quads they are left alone, since they are no more than guides.
 #include "meshing/quads_by_field.h"
 
 #include <algorithm>
@@ -15,7 +15,9 @@
 #include "geometry/errors.h"
 #include "meshing/baselines.h"
 #include "meshing/quad_curves.h"
+#include "meshing/quad_holes.h"
 #include "meshing/quad_map.h"
+#include "meshing/quad_shape.h"
 #include "meshing/quad_smoothing.h"
 
 namespace fcn {
@@ -26,6 +28,9 @@ constexpr double kShrinking = 0.9;
 /// Triangles of the domain are this share of a quad's edge, longer where there were too many.
 constexpr double kFineShare = 1.0 / 3, kCoarseShare = 0.5;
 constexpr double kCurveWeight = 1;  ///< of alignment in the map, against the field's
+constexpr double kFilledLoop = 3;   ///< in edge lengths: such loops are closed for the map
+constexpr int kCurveRounds = 4;
+constexpr double kLeastJacobian = 0.15;  ///< of quads at curves
 constexpr double kManyTriangles = 60000;
 
 class Stopwatch {
@@ -89,6 +94,9 @@ public:
         QuadExtraction extraction = steps_.extraction(domain.mesh, map.map);
         attempt.extraction = watch.lap();
         if (!extraction.fault.empty()) return fail("extraction", extraction.fault);
+        const int closed = static_cast<int>(domain.filled_holes.size());
+        if (open_holes(extraction.mesh, domain.filled_holes) < closed)
+            return fail("extraction", "short boundary loops that cannot be opened again");
         attempt.step = "smoothing";
         const int inverted = smooth(extraction.mesh, edge_length);
         attempt.smoothing = watch.lap();
@@ -103,6 +111,7 @@ private:
     QuadDomain make_domain(double edge_length) const {
         QuadDomainOptions options;
         options.edge_length = domain_edge_length(area_, edge_length);
+        options.filled_loop = kFilledLoop * edge_length;
         options.is_guided = options_.guidance != QuadGuidance::None;
         options.reference = &reference_;
         return steps_.domain(input_, network_, options);
@@ -114,27 +123,49 @@ private:
         return steps_.field(domain, options);
     }
 
-    /// Returns the number of inverted corners.
+    /// Returns the number of inverted corners. Arcs that spoil quads are left out.
     int smooth(QuadMesh& mesh, double edge_length) const {
         if (steps_.smoothing) return steps_.smoothing(mesh);
-        QuadCurveOptions drawing;
-        drawing.edge_length = edge_length;
+        QuadCurveOptions curves;
+        curves.edge_length = edge_length;
+        curves.is_left_out.assign(network_.arcs.size(), options_.guidance == QuadGuidance::None);
         QuadSmoothingOptions smoothing;
         smoothing.edge_length = edge_length;
         smoothing.rounds = options_.smoothing_rounds;
-        const bool is_guided = options_.guidance != QuadGuidance::None;
-        for (const bool with_network : {is_guided, false}) {
+        for (int round = 0;; ++round) {
             QuadMesh trial = mesh;
-            const FeatureCurveNetwork none;
             const QuadConstraints constraints =
-                draw_to_curves(trial, input_.mesh, with_network ? network_ : none, drawing);
-            const int inverted =
-                smooth_quads(trial, constraints, reference_, smoothing).inverted_after;
-            if (inverted > 0 && with_network) continue;
-            mesh = std::move(trial);
-            return inverted;
+                move_to_curves(trial, input_.mesh, network_, curves);
+            smooth_quads(trial, constraints, reference_, smoothing);
+            if (round < kCurveRounds && leave_out_bad_arcs(trial, curves)) continue;
+            if (round == kCurveRounds)
+                curves.is_left_out.assign(network_.arcs.size(), true);
+            else {
+                mesh = std::move(trial);
+                return count_inverted_corners(mesh);
+            }
         }
-        return 0;
+    }
+
+    /// Arcs on whose vertices there is a bad quad; whether there is one.
+    bool leave_out_bad_arcs(const QuadMesh& mesh, QuadCurveOptions& curves) const {
+        std::vector<bool> is_bad(mesh.points.size(), false);
+        for (const auto& face : mesh.faces) {
+            QuadCorners quad;
+            for (std::size_t i = 0; i < 4; ++i)
+                quad[i] = mesh.points[static_cast<std::size_t>(face[i])];
+            if (scaled_jacobian(quad) < kLeastJacobian)
+                for (const int v : face) is_bad[static_cast<std::size_t>(v)] = true;
+        }
+        bool is_any = false;
+        for (const QuadFeatureEdge& edge : mesh.feature_edges) {
+            if (!is_bad[static_cast<std::size_t>(edge.from)] &&
+                !is_bad[static_cast<std::size_t>(edge.to)])
+                continue;
+            curves.is_left_out[static_cast<std::size_t>(edge.arc)] = true;
+            is_any = true;
+        }
+        return is_any;
     }
 
     void label_faces(QuadMesh& mesh) const {
