@@ -19,6 +19,10 @@ using Point = Kernel::Point_3;
 using Triangle = Kernel::Triangle_3;
 using Segment = Kernel::Segment_3;
 
+/// Squared sine of the angle below which triangles at an edge count as folded onto each other: in
+/// a plane that is not parallel to the axes rounding leaves that much.
+constexpr double kFlat = 1e-9;
+
 Point to_point(const Vec3& p) { return {p[0], p[1], p[2]}; }
 
 /// A triangle's corners, those that another one has too first.
@@ -125,10 +129,12 @@ bool do_triangles_cross(const std::array<int, 3>& one, const std::array<Vec3, 3>
     if (a.shared == 3) return true;
     if (a.shared == 2) {
         // Folded onto each other; elsewhere they meet in their edge alone.
-        if ((a.points[1] - a.points[0])
-                .cross(a.points[2] - a.points[0])
-                .dot((a.points[1] - a.points[0]).cross(b.points[2] - a.points[0])) < 0)
-            return false;
+        const Vec3 edge = a.points[1] - a.points[0];
+        const Vec3 n = edge.cross(a.points[2] - a.points[0]);
+        const Vec3 m = edge.cross(b.points[2] - a.points[0]);
+        const double dot = n.dot(m);
+        if (dot < 0) return false;
+        if (dot > 0 && dot * dot >= (1 - kFlat) * n.squaredNorm() * m.squaredNorm()) return true;
         const Point p = to_point(a.points[0]), q = to_point(a.points[1]), c = to_point(a.points[2]),
                     d = to_point(b.points[2]);
         return CGAL::coplanar(p, q, c, d) &&

@@ -8,7 +8,8 @@
 namespace fcn {
 
 /// Pairs of triangles that meet in more than the corners they share, smaller index first, sorted.
-/// Exact; triangles without area are left out. Near-linear time.
+/// Exact, but for triangles folded onto each other at their edge, to 3e-5 radians; triangles
+/// without area are left out. Near-linear time.
 std::vector<std::array<int, 2>> self_intersections(
     const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>& triangles);
 std::vector<std::array<int, 2>> self_intersections(const Mesh& mesh);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 #include <random>
@@ -156,6 +157,27 @@ TEST(SizeSources, LimitIsTheLeastOverAllSources) {
             else
                 EXPECT_FALSE(sources.is_near(p));
         }
+    }
+}
+
+TEST(SelfIntersections, FoldedPairsAreFoundInEveryPlane) {
+    // Rounding takes rotated points out of their plane.
+    std::mt19937_64 engine(11);
+    std::uniform_real_distribution<double> share(-1, 1);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const Vec3 axis = Vec3(share(engine), share(engine), share(engine)).normalized();
+        const Eigen::AngleAxisd rotation(3 * share(engine), axis);
+        const Vec3 shift = 100 * Vec3(share(engine), share(engine), share(engine));
+        const auto place = [&](double x, double y, double z) {
+            return Vec3(rotation * Vec3(x, y, z) + shift);
+        };
+        const Vec3 a = place(0, 0, 0), b = place(1, 0, 0), c = place(share(engine), 1, 0);
+        const auto cross_with = [&](const Vec3& d) {
+            return do_triangles_cross({0, 1, 2}, {a, b, c}, {1, 0, 3}, {b, a, d});
+        };
+        EXPECT_TRUE(cross_with(place(share(engine), 0.7, 0))) << trial;
+        EXPECT_FALSE(cross_with(place(share(engine), -0.7, 0))) << trial;
+        EXPECT_FALSE(cross_with(place(share(engine), 0.7, 1e-3))) << trial;
     }
 }
 
