@@ -34,7 +34,7 @@ public:
           target_(target),
           options_(options),
           finder_(input, target.length) {
-        target_.sources = SizeSources(target.length);
+        if (target_.sources.is_empty()) target_.sources = SizeSources(target.length);
         target_.curve_sources = SizeSources(target.length);
     }
 

@@ -4,9 +4,10 @@
 // quads around the vertex of (a^2 + b^2) / (2 a b sine) for the two edges a, b of the corner, the
 // inverse mean ratio of Knupp 2001, "Algebraic mesh quality metrics": 1 for a square's corner,
 // large for one that is nearly flat. Inverted corners have a finite energy above that of all others
-// which grows with how far they are turned over, so that the same steps untangle. Proposals end on
-// the surface or on the vertex's curve before they are judged; what is not on its curve yet may get
-// worse to reach it, as long as no corner turns over.
+// which grows with how far they are turned over, so that the same steps untangle. Quads that face
+// away from the surface are turned over as a whole: their own area vectors do not tell. Proposals
+// end on the surface or on the vertex's curve before they are judged; what is not on its curve yet
+// may get worse to reach it, as long as no corner turns over.
 #include "meshing/quad_smoothing.h"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ namespace fcn {
 namespace {
 
 constexpr double kFlatSine = 0.02;  ///< corners below count as nearly inverted
+constexpr double kBehind = -0.1;    ///< cosine to the surface's normal below which quads face back
 constexpr double kReach = 2;        ///< in h: farther the surface is not looked for
 constexpr double kRest = 1e-3;      ///< in h: shorter moves are none
 constexpr int kMaxHalvings = 4;
@@ -87,13 +89,16 @@ private:
         return quad;
     }
 
-    Judgement judge(int v, const Vec3& p) const {
+    /// `outward`: quads that face the other way count as turned over; zero: unknown.
+    Judgement judge(int v, const Vec3& p, const Vec3& outward) const {
         Judgement result;
         for (int k = begin_[at(v)]; k < begin_[at(v) + 1]; ++k) {
             const QuadCorners quad = quad_with(corners_[at(k)], p);
             const Vec3 area = area_vector(quad);
             const double norm = area.norm();
-            const auto sines = corner_sines(quad, norm > 0 ? Vec3(area / norm) : Vec3::Zero());
+            const double side = area.dot(outward) < kBehind * norm ? -1 : 1;
+            const auto sines =
+                corner_sines(quad, norm > 0 ? Vec3(side / norm * area) : Vec3::Zero());
             for (std::size_t i = 0; i < 4; ++i) {
                 const double a = (quad[(i + 1) % 4] - quad[i]).norm();
                 const double b = (quad[(i + 3) % 4] - quad[i]).norm();
@@ -132,10 +137,18 @@ private:
         return true;
     }
 
+    /// Of the surface where a free vertex is, zero for others: curves run along creases.
+    Vec3 outward(int v) const {
+        return curve(v) == QuadConstraints::kFree && place_[at(v)] >= 0
+                   ? reference_.normal(place_[at(v)])
+                   : Vec3::Zero();
+    }
+
     bool try_move(int v, const Vec3& normal, Vec3 p, const Judgement& before, bool may_worsen) {
         int place = -1;
         if (!land(v, normal, p, place)) return false;
-        const Judgement after = judge(v, p);
+        const Judgement after =
+            judge(v, p, place >= 0 ? reference_.normal(place) : Vec3(Vec3::Zero()));
         if (after.worst < std::min(before.worst, options_.least_sine)) return false;
         if (!may_worsen && after.energy >= before.energy * (1 - 1e-6)) return false;
         const bool is_far = !is_near(p, point(v));
@@ -148,7 +161,7 @@ private:
     bool move(int v) {
         const auto [centre, normal] = centre_and_normal(v);
         if (!is_on_curve_[at(v)] && draw_to_curve(v)) return true;
-        const Judgement before = judge(v, point(v));
+        const Judgement before = judge(v, point(v), outward(v));
         // The first time a free vertex is seen it comes to the surface, whatever that costs.
         const bool is_afloat = curve(v) == QuadConstraints::kFree && place_[at(v)] < 0;
         Vec3 step = centre - point(v);
@@ -164,11 +177,11 @@ private:
     /// As far towards its curve as no corner turns over.
     bool draw_to_curve(int v) {
         const Vec3 from = point(v), to = on_curve(v, from);
-        const double before = judge(v, from).worst;
+        const double before = judge(v, from, Vec3::Zero()).worst;
         double share = 1;
         for (int halving = 0; halving <= kMaxHalvings; ++halving, share *= 0.5) {
             const Vec3 p = from + share * (to - from);
-            const double worst = judge(v, p).worst;
+            const double worst = judge(v, p, Vec3::Zero()).worst;
             if (worst < std::min(before, kFlatSine)) continue;
             mesh_.points[at(v)] = p;
             is_on_curve_[at(v)] = share == 1;
@@ -180,10 +193,11 @@ private:
     bool descend(int v, const Vec3& normal, const Judgement& before) {
         const double h = options_.edge_length;
         const Vec3 axis = normal.unitOrthogonal(), other = normal.cross(axis);
+        const Vec3 facing = outward(v);
         Vec3 slope = Vec3::Zero();
         for (const Vec3& d : {axis, other}) {
-            const double ahead = judge(v, point(v) + kSlopeStep * h * d).energy;
-            const double behind = judge(v, point(v) - kSlopeStep * h * d).energy;
+            const double ahead = judge(v, point(v) + kSlopeStep * h * d, facing).energy;
+            const double behind = judge(v, point(v) - kSlopeStep * h * d, facing).energy;
             slope += (ahead - behind) * d;
         }
         const double norm = slope.norm();

@@ -7,6 +7,7 @@
 // The flat pieces of flat faces have no inverted corners; moving to the surface and smoothing may
 // not make any. Only middles that begin off their edge, and pairs of triangles that are not flat,
 // can; if smoothing does not untangle them, they give way: first the middles, then the pairs.
+// Where the result is far from the surface, all is made again with shorter edges around.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,18 +18,24 @@
 #include "geometry/errors.h"
 #include "meshing/coarse_network.h"
 #include "meshing/midpoint_split.h"
+#include "meshing/quad_faults.h"
 #include "meshing/quad_shape.h"
 #include "meshing/quad_smoothing.h"
 #include "meshing/reference_surface.h"
 #include "meshing/remesh.h"
 #include "meshing/remesh_quads.h"
+#include "meshing/size_sources.h"
 
 namespace fcn {
 namespace {
 
 constexpr double kLeastSine = 0.1;   ///< of a triangle's three quads, for a middle off its edge
 constexpr double kLeastShare = 0.2;  ///< of an edge, between its middle and its ends
-constexpr int kMaxRemeshes = 3;
+constexpr int kMaxRemeshes = 5;      ///< of triangles, in all
+constexpr double kFar = 0.4;         ///< in h: quads farther from the surface ask for shorter edges
+constexpr double kShrink = 0.6;      ///< of the triangles' edges there, an attempt
+constexpr double kShortest = 0.4;    ///< in h: triangles' edges are not asked to be shorter
+constexpr int kManyFaces = 500000;   ///< of the input, from which on there is one attempt
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -187,19 +194,28 @@ struct CoarseTriangles {
     RemeshResult remeshed;
 };
 
+/// What the attempts have learned and cost so far.
+struct Trials {
+    std::vector<RefinedPlace> refined;
+    std::vector<bool> kept_apart;  ///< per segment: it cannot be joined to another one
+    int remeshes = 0;
+};
+
 /// Triangles of length 2 h; segments that do not become single edges are not joined.
 CoarseTriangles coarse_triangles(const LoadedMesh& mesh, const FeatureCurveNetwork& network,
-                                 const QuadOptions& options, const ReferenceSurface& reference) {
+                                 const QuadOptions& options, const ReferenceSurface& reference,
+                                 Trials& trials) {
     RemeshOptions triangles;
     triangles.edge_length = 2 * options.edge_length;
     triangles.iterations = options.iterations;
     triangles.is_protecting = !network.arcs.empty();
     triangles.reference = &reference;
+    triangles.refined_places = trials.refined;
     const double longest = 4.0 / 3 * triangles.edge_length * (1 - 1e-6);
-    std::vector<bool> kept_apart(network.segments.size(), false);
-    for (int attempt = 1;; ++attempt) {
-        CoarseTriangles result{join_segments(network, longest, kept_apart), {}};
+    while (true) {
+        CoarseTriangles result{join_segments(network, longest, trials.kept_apart), {}};
         result.remeshed = remesh_triangles(mesh, result.coarse.network, triangles);
+        ++trials.remeshes;
         std::vector<int> count(result.coarse.parts.size(), 0);
         for (const FeatureSource& source : result.remeshed.feature_sources)
             if (source.segment >= 0) ++count[at(source.segment)];
@@ -207,21 +223,22 @@ CoarseTriangles coarse_triangles(const LoadedMesh& mesh, const FeatureCurveNetwo
         for (std::size_t s = 0; s < count.size(); ++s) {
             if (count[s] == 1 || result.coarse.middle[s] < 0) continue;
             is_broken = true;
-            for (const int part : result.coarse.parts[s]) kept_apart[at(part)] = true;
+            for (const int part : result.coarse.parts[s]) trials.kept_apart[at(part)] = true;
         }
-        if (!is_broken || attempt > kMaxRemeshes) return result;
-        if (attempt == kMaxRemeshes) kept_apart.assign(kept_apart.size(), true);
+        if (!is_broken || trials.remeshes >= kMaxRemeshes) return result;
+        if (trials.remeshes + 1 == kMaxRemeshes)
+            trials.kept_apart.assign(trials.kept_apart.size(), true);
     }
 }
 
 class QuadsByPairing {
 public:
     QuadsByPairing(const LoadedMesh& mesh, const FeatureCurveNetwork& network,
-                   const QuadOptions& options, const ReferenceSurface& reference)
+                   const QuadOptions& options, const ReferenceSurface& reference, Trials& trials)
         : network_(network),
           options_(options),
           reference_(reference),
-          base_(coarse_triangles(mesh, network, options, reference)),
+          base_(coarse_triangles(mesh, network, options, reference, trials)),
           made_(mesh, base_.coarse, base_.remeshed) {}
 
     QuadResult run() {
@@ -333,8 +350,28 @@ QuadResult quads_by_pairing(const LoadedMesh& mesh, const FeatureCurveNetwork& n
     const auto start = std::chrono::steady_clock::now();
     std::unique_ptr<ReferenceSurface> own;
     if (options.reference == nullptr) own = std::make_unique<ReferenceSurface>(mesh.mesh);
-    QuadResult result =
-        QuadsByPairing(mesh, network, options, options.reference ? *options.reference : *own).run();
+    const ReferenceSurface& reference = options.reference ? *options.reference : *own;
+    const double h = options.edge_length;
+    const bool is_large = mesh.mesh.n_faces() >= kManyFaces;
+    SizeSources sources(2 * h);
+    Trials trials{{}, std::vector<bool>(network.segments.size(), false), 0};
+    QuadResult result;
+    double least = std::numeric_limits<double>::infinity();
+    while (trials.remeshes < kMaxRemeshes) {
+        QuadResult one = QuadsByPairing(mesh, network, options, reference, trials).run();
+        const QuadDistance far = find_far_places(one.mesh, mesh.mesh, reference, kFar * h, 0.5 * h);
+        // Inverted corners are worse than any distance.
+        const double severity = far.largest / h + 1e6 * one.inverted_corners;
+        if (severity < least) result = std::move(one);
+        least = std::min(least, severity);
+        if (far.places.empty() || is_large) break;
+        for (const Vec3& p : far.places) {
+            const double now = std::min(2 * h, sources.limit(p));
+            trials.refined.push_back({p, std::max(kShortest * h, kShrink * now)});
+        }
+        for (std::size_t i = sources.sources().size(); i < trials.refined.size(); ++i)
+            sources.add(trials.refined[i].position, trials.refined[i].edge_length);
+    }
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;

@@ -31,10 +31,13 @@ RemeshResult remesh_triangles(const LoadedMesh& mesh, const FeatureCurveNetwork&
     result.warnings = work.warnings;
     result.statistics.embedding = seconds();
 
-    const EdgeTarget target =
+    EdgeTarget target =
         options.curvature_tolerance > 0
             ? target_by_curvature(mesh.mesh, options.edge_length, options.curvature_tolerance)
             : EdgeTarget{options.edge_length, {}, {}, {}};
+    target.sources = SizeSources(options.edge_length);
+    for (const RefinedPlace& place : options.refined_places)
+        target.sources.add(place.position, place.edge_length);
     IncrementalOptions incremental;
     incremental.iterations = options.iterations;
     incremental.is_improving = options.is_improving_angles;

@@ -14,6 +14,12 @@ inline constexpr double kEdgeLengthFactor = 1.2;
 
 class ReferenceSurface;
 
+/// A place where edges have to be shorter than asked for.
+struct RefinedPlace {
+    Vec3 position = Vec3::Zero();
+    double edge_length = 0;  ///< there, growing with the distance
+};
+
 struct RemeshOptions {
     double edge_length = 0;  ///< target L, mesh units, > 0
     int iterations = 10;     ///< in 1 .. 1000
@@ -23,6 +29,7 @@ struct RemeshOptions {
     /// > 0: edges are as long as lets the surface deviate from them by this share of L, within
     /// [L / 1.2, 1.25 L]; 0: one length everywhere.
     double curvature_tolerance = 0;
+    std::vector<RefinedPlace> refined_places;     ///< known already; is_improving_angles only
     const ReferenceSurface* reference = nullptr;  ///< of the mesh, made already; not owned
 };
 
@@ -32,12 +39,6 @@ struct RemeshStatistics {
     int repair_rounds = 0;                                  ///< where it had faults
     /// Seconds of the phases.
     double embedding = 0, coarsening = 0, iterating = 0, improving = 0, repairing = 0;
-};
-
-/// A place where edges had to be shorter than asked for.
-struct RefinedPlace {
-    Vec3 position = Vec3::Zero();
-    double edge_length = 0;  ///< there, growing with the distance
 };
 
 /// Where on the network an edge lies; -1: unknown, or the network has no segments.
