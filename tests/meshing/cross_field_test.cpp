@@ -16,6 +16,7 @@
 #include "meshing/quad_holes.h"
 #include "meshing/sample_meshes.h"
 #include "meshing/sample_networks.h"
+#include "meshing/singularity_refinement.h"
 
 namespace fcn {
 namespace {
@@ -291,6 +292,46 @@ TEST(FieldDesign, MergesOppositePairs) {
     double largest = 0;
     for (const double bend : twisted.bends) largest = std::max(largest, std::abs(bend));
     EXPECT_LT(largest, 1e-6);
+}
+
+// Twice the faces around singularities, the same surface, field, and curves.
+TEST(FieldDesign, RefinedAroundSingularities) {
+    const LoadedMesh box = test::cube(4);
+    const FeatureCurveNetwork network = test::crease_network(box.mesh, 0.5);
+    const std::vector<QuadDomain> domains{domain_of(box, network, 0.25),
+                                          domain_of(loaded(test::sphere(1, 3)), {}, 0.4)};
+    for (const QuadDomain& domain : domains) {
+        const FieldDesign before = design(domain, 0.25);
+        ASSERT_FALSE(before.singularities.empty());
+        const RefinedField after = refine_singularities(domain, before);
+        const Mesh& mesh = after.domain.mesh;
+        EXPECT_EQ(first_fault(mesh, after.design.field), "");
+        EXPECT_EQ(euler(mesh), euler(domain.mesh));
+        std::vector<int> indices = vertex_indices(domain.mesh, before.field);
+        indices.resize(mesh.n_vertices(), 0);
+        EXPECT_EQ(vertex_indices(mesh, after.design.field), indices);
+        for (const Singularity& s : before.singularities)
+            EXPECT_EQ(mesh.valence(VertexHandle(s.vertex)),
+                      2 * domain.mesh.valence(VertexHandle(s.vertex)));
+        double area = 0, length = 0;
+        for (const FaceHandle face : mesh.faces()) area += face_area(mesh, face);
+        for (const FaceHandle face : domain.mesh.faces()) area -= face_area(domain.mesh, face);
+        EXPECT_NEAR(area, 0, 1e-9);
+        for (const EdgeHandle edge : mesh.edges())
+            if (after.domain.edge_arc[static_cast<std::size_t>(edge.idx())] >= 0)
+                length += mesh.calc_edge_length(edge);
+        EXPECT_NEAR(length, network.total_length() * (&domain == &domains[0] ? 1 : 0), 1e-6);
+        // Every bend was there before, or lies inside a face.
+        double largest = 0, largest_before = 0;
+        for (const HalfedgeHandle h : mesh.halfedges())
+            if (!mesh.is_boundary(mesh.edge_handle(h)))
+                largest = std::max(largest, std::abs(arm_rotation(mesh, after.design.field, h)));
+        for (const HalfedgeHandle h : domain.mesh.halfedges())
+            if (!domain.mesh.is_boundary(domain.mesh.edge_handle(h)))
+                largest_before =
+                    std::max(largest_before, std::abs(arm_rotation(domain.mesh, before.field, h)));
+        EXPECT_NEAR(largest, largest_before, 1e-9);
+    }
 }
 
 TEST(FieldDesign, Deterministic) {
