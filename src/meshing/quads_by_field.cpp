@@ -19,6 +19,7 @@
 #include "meshing/quad_map.h"
 #include "meshing/quad_shape.h"
 #include "meshing/quad_smoothing.h"
+#include "meshing/singularity_refinement.h"
 
 namespace fcn {
 namespace {
@@ -78,14 +79,17 @@ public:
         };
         Stopwatch watch;
         attempt.step = "domain";
-        const QuadDomain domain = make_domain(edge_length);
+        QuadDomain domain = make_domain(edge_length);
         attempt.domain = watch.lap();
         attempt.triangles = domain.mesh.n_faces();
         attempt.step = "field";
-        const FieldDesign field = make_field(domain, edge_length);
+        FieldDesign field = make_field(domain, edge_length);
         attempt.field = watch.lap();
         attempt.singularities = static_cast<int>(field.singularities.size());
         if (!field.failure.empty()) return fail("field", field.failure);
+        RefinedField refined = refine_singularities(domain, field);
+        domain = std::move(refined.domain);
+        field = std::move(refined.design);
         attempt.step = "map";
         const FieldMap map = steps_.map(domain, field, edge_length);
         attempt.map = watch.lap();

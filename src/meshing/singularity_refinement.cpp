@@ -159,6 +159,7 @@ private:
 }  // namespace
 
 RefinedField refine_singularities(const QuadDomain& domain, const FieldDesign& design) {
+    if (design.singularities.empty()) return {domain, design};
     return SingularityRefiner(domain).run(design);
 }
 
