@@ -22,6 +22,7 @@ using Eigen::VectorXd;
 
 constexpr double kGrid = 1073741824.0;  ///< 2^30 coordinates a unit
 constexpr double kLargest = 4194304.0;  ///< 2^22: of a coordinate
+constexpr int kStiffRings = 10;         ///< around singular vertices
 constexpr double kFirstStep = 0.1;      ///< of the way from the seamless map to the integers
 constexpr int kSeamlessAttempts = 5;    ///< at a seamless map that winds as the field does
 constexpr double kTightStep = 0.02;     ///< below, everything moves to make room
@@ -186,28 +187,54 @@ private:
     }
 
     void reach_integers() {
-        const VectorXd values = minimum(energy_, is_integer(), target_);
-        if (values.size() == 0) {
+        QuadraticEnergy stretch =
+            reduced(alignment_energy(problem_, stiffness_at_grid_points()), problem_);
+        stretch.right.setZero();
+        way_ = minimum(stretch, is_integer(), target_ - seamless_);
+        if (way_.size() == 0) {
             result_.fault = "no map for the integers: the linear system cannot be solved";
             return;
         }
         UntanglingOptions options;
         options.iterations = 30;
         options.is_all_moving = false;
-        integral_ = untangle(problem_, values, is_integer(), options);
+        integral_ = untangle(problem_, seamless_ + way_, is_integer(), options);
         statistics().newton_steps += integral_.iterations;
         statistics().quantised_before = integral_.turned_over_before;
         if (!is_sound(integral_)) walk_to_integers();
         statistics().quantised_after = integral_.turned_over;
     }
 
+    /// Falls with the square of the rings from singular vertices: a displacement that
+    /// is harmonic would move them without their surroundings.
+    std::vector<double> stiffness_at_grid_points() const {
+        const auto& corners = problem_.cut.corners;
+        std::vector<int> ring(mesh_.n_vertices(), kStiffRings);
+        for (std::size_t v = 0; v < ring.size(); ++v)
+            if (problem_.cut.is_singular[v] != 0) ring[v] = 0;
+        std::vector<double> result(mesh_.n_faces(), 1);
+        std::vector<bool> is_seen(mesh_.n_faces(), false);
+        for (int r = 0; r < kStiffRings; ++r) {
+            for (std::size_t f = 0; f < result.size(); ++f) {
+                const bool is_in = std::any_of(corners[f].begin(), corners[f].end(), [&](int v) {
+                    return ring[static_cast<std::size_t>(v)] == r;
+                });
+                if (is_seen[f] || !is_in) continue;
+                is_seen[f] = true;
+                const double near = kStiffRings / (r + 0.5);
+                result[f] = near * near;
+                for (const int v : corners[f]) {
+                    int& own = ring[static_cast<std::size_t>(v)];
+                    own = std::min(own, r + 1);
+                }
+            }
+        }
+        return result;
+    }
+
     /// From the seamless map to the integers; a step that cannot be untangled is halved.
     void walk_to_integers() {
         if (statistics().seamless_after + statistics().seamless_windings > 0) return;
-        QuadraticEnergy stretch = energy_;
-        stretch.right.setZero();
-        const VectorXd way = minimum(stretch, is_integer(), target_ - seamless_);
-        if (way.size() == 0) return;
         UntanglingOptions options;
         options.iterations = 20;
         options.is_all_moving = false;
@@ -216,7 +243,7 @@ private:
         bool is_relaxed = false;
         while (gone < 1 && step > kLeastStep) {
             const double next = std::min(1.0, gone + step);
-            VectorXd values = now + (next - gone) * way;
+            VectorXd values = now + (next - gone) * way_;
             for (std::size_t i = 0; i < is_integer().size() && next == 1; ++i)
                 if (is_integer()[i]) values[static_cast<int>(i)] = target_[static_cast<int>(i)];
             const UntanglingResult tried = untangle(problem_, values, is_integer(), options);
@@ -275,6 +302,7 @@ private:
     MapProblem problem_;
     QuadraticEnergy energy_;
     VectorXd seamless_, target_;
+    VectorXd way_;  ///< from the one to the other
     UntanglingResult integral_;
     QuadMapResult result_;
     Stopwatch watch_;
