@@ -76,6 +76,27 @@ std::vector<Row> triangle_rows(const MeshRecord& mesh) {
     return rows;
 }
 
+std::vector<Row> quad_rows(const MeshRecord& mesh) {
+    std::vector<Row> rows{{"scale", "edge length", "made by", "quads", "mean scaled Jacobian",
+                           "least", "inverted corners", "irregular", "Hausdorff / edge length",
+                           "off kept curves (deg)"}};
+    for (const ScaleRecord& scale : mesh.scales) {
+        if (!scale.quads) continue;
+        const QuadQuality& quality = scale.quads->quality;
+        const double edge_length = kEdgeLengthFactor * scale.rmin;
+        rows.push_back({scale.label, fmt::format("{:.4g}", edge_length),
+                        scale.quads->result.tier == QuadTier::Field ? "field" : "pairing",
+                        fmt::format("{}", quality.faces),
+                        number_or_dash(quality.mean_scaled_jacobian, 3),
+                        number_or_dash(quality.min_scaled_jacobian, 3),
+                        fmt::format("{}", quality.inverted_corners),
+                        percent_or_dash(quality.share_irregular, 1),
+                        number_or_dash(scale.quads->distance.hausdorff / edge_length, 2),
+                        number_or_dash(scale.quads->alignment.mean_degrees, 1)});
+    }
+    return rows;
+}
+
 std::vector<Row> solver_rows(const MeshRecord& mesh, bool has_timings) {
     Row head{"scale", "solver", "status", "value", "bound", "gap"};
     if (has_timings) head.push_back("seconds");
@@ -102,6 +123,8 @@ std::string closing_table(const MeshRecord& mesh, bool has_timings) {
                     mesh.mesh.mesh.n_faces(), mesh.initial.arcs.size(), mesh.method);
     if (mesh.scales.empty()) return text;
     text += aligned(triangle_rows(mesh), 3);
+    const std::vector<Row> quads = quad_rows(mesh);
+    if (quads.size() > 1) text += "\n" + aligned(quads, 3);
     const std::vector<Row> solvers = solver_rows(mesh, has_timings);
     if (solvers.size() > 1)
         text += "\n  first labeling problem of each scale, every solver from scratch:\n" +

@@ -126,18 +126,6 @@ std::optional<QuadMesh> quads_to_draw(const DrawArguments& arguments) {
     return quads && check_topology(*quads).fault.empty() ? quads : std::nullopt;
 }
 
-PictureLayer edges_of(const QuadMesh& mesh) {
-    PictureLayer layer{{}, {70, 80, 95}, 1};
-    const std::vector<int> opposite = opposite_halfedges(mesh);
-    for (std::size_t h = 0; h < opposite.size(); ++h) {
-        if (opposite[h] > static_cast<int>(h)) continue;
-        const auto& face = mesh.faces[h / 4];
-        layer.polylines.push_back({mesh.points[static_cast<std::size_t>(face[h % 4])],
-                                   mesh.points[static_cast<std::size_t>(face[(h + 1) % 4])]});
-    }
-    return layer;
-}
-
 int draw(const DrawArguments& arguments) {
     std::vector<DrawnNetwork> networks;
     for (const std::string& text : arguments.curves) networks.push_back(parse_curves(text));
@@ -153,7 +141,7 @@ int draw(const DrawArguments& arguments) {
     const std::optional<QuadMesh> quads = quads_to_draw(arguments);
     if (quads) {
         options.is_drawing_wireframe = false;
-        layers.push_back(edges_of(*quads));
+        layers.push_back(quad_edges(*quads));
     }
     LoadedMesh mesh;
     if (quads)

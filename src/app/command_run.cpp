@@ -18,6 +18,7 @@
 #include "app/json_summary.h"
 #include "app/outputs.h"
 #include "app/pipeline.h"
+#include "app/quad_summary.h"
 #include "app/run_baselines.h"
 #include "app/run_files.h"
 #include "app/viewer_script.h"
@@ -133,6 +134,7 @@ Json scale_json(const ScaleRecord& scale, const MeshRecord& record, const Pipeli
         scale.has_remesh ? quality_json(scale.remesh_quality, edge_length) : Json(nullptr);
     json["remesh_on_initial"] =
         scale.has_initial_remesh ? quality_json(scale.initial_quality, edge_length) : Json(nullptr);
+    json["quads"] = scale.quads ? quad_record_json(*scale.quads, has_timings) : Json(nullptr);
     json["ways"] = Json::array();
     if (scale.has_remesh)
         json["ways"].push_back(comparison_json(scale.remesh_row, edge_length, false));

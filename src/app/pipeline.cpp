@@ -13,6 +13,7 @@
 #include "app/inputs.h"
 #include "app/interrupt.h"
 #include "app/run_baselines.h"
+#include "app/run_quads.h"
 #include "labeling/errors.h"
 #include "labeling_mip/mip_solvers.h"
 
@@ -135,6 +136,13 @@ ScaleRecord process_scale(const MeshRecord& record, const ScaleRequest& scale,
         bar.show(what + ": remeshing on the adapted and on the initial network", 0.9);
         add_remeshes(result, record, *surface.reference, adaptation.ratio, options.baselines,
                      options.common.thread_count());
+    }
+    if (options.is_remeshing && adaptation.target == ElementType::Quad && !is_interrupted()) {
+        bar.show(what + ": quads", 0.95);
+        result.quads = make_quads(result, record, *surface.reference);
+        auto& warnings = result.adaptation.report.warnings;
+        for (const std::string& warning : result.quads->result.warnings)
+            warnings.push_back("quads: " + warning);
     }
     return result;
 }

@@ -38,6 +38,18 @@ Json quad_result_json(const QuadResult& result, bool has_timings) {
     return json;
 }
 
+Json quad_record_json(const QuadRecord& quads, bool has_timings) {
+    Json json = quad_result_json(quads.result, has_timings);
+    json["quads"] = quad_quality_json(quads.quality);
+    json["distance"] = {{"hausdorff", quads.distance.hausdorff},
+                        {"mean_forward", quads.distance.mean_forward},
+                        {"mean_backward", quads.distance.mean_backward},
+                        {"samples", quads.distance.samples},
+                        {"reference_diagonal", quads.distance.diagonal}};
+    json["alignment"] = alignment_json(quads.alignment);
+    return json;
+}
+
 std::string quad_quality_text(const QuadQuality& quality) {
     return fmt::format(
         "{} vertices, {} quads; scaled Jacobian {:.3f} on the average, {:.3f} at least; {:.2f} % "

@@ -11,6 +11,8 @@ Json quad_quality_json(const QuadQuality& quality);
 Json alignment_json(const QuadAlignment& alignment);
 /// How quads were made, without measures: tier, reason, edge length, ...
 Json quad_result_json(const QuadResult& result, bool has_timings);
+/// The same with measures.
+Json quad_record_json(const QuadRecord& quads, bool has_timings);
 std::string to_string(QuadTier tier);
 
 /// One line: counts, scaled Jacobians, irregular vertices, inverted corners.

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "labeling/formats.h"
+#include "meshing/quad_files.h"
 #include "network/network_io.h"
 
 namespace fcn::app {
@@ -67,6 +68,10 @@ std::vector<std::string> write_scale_files(const MeshRecord& record, const Scale
     if (scale.has_remesh) {
         write_mesh(folder / "remesh.obj", scale.remesh);
         files.push_back((folder / "remesh.obj").string());
+    }
+    if (scale.quads) {
+        write_quads(folder / "quads.obj", scale.quads->result.mesh);
+        files.push_back((folder / "quads.obj").string());
     }
     for (std::string& file : write_problems(scale.adaptation.report, folder))
         files.push_back(std::move(file));

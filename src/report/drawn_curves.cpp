@@ -82,4 +82,16 @@ Polyline simplified(const Polyline& points, double tolerance) {
     return result;
 }
 
+PictureLayer quad_edges(const QuadMesh& mesh) {
+    PictureLayer layer{{}, {70, 80, 95}, 1};
+    const std::vector<int> opposite = opposite_halfedges(mesh);
+    for (std::size_t h = 0; h < opposite.size(); ++h) {
+        if (opposite[h] > static_cast<int>(h)) continue;
+        const auto& face = mesh.faces[h / 4];
+        layer.polylines.push_back({mesh.points[static_cast<std::size_t>(face[h % 4])],
+                                   mesh.points[static_cast<std::size_t>(face[(h + 1) % 4])]});
+    }
+    return layer;
+}
+
 }  // namespace fcn

@@ -3,7 +3,9 @@
 #include <vector>
 
 #include "geometry/surface_queries.h"
+#include "meshing/quad_mesh.h"
 #include "network/network.h"
+#include "report/picture.h"
 
 namespace fcn {
 
@@ -18,6 +20,9 @@ Polyline polyline_of(const NetworkArc& arc);
 /// chord itself.
 Polyline chord_on_surface(const Vec3& from, const Vec3& to, const SurfaceQueries& surface,
                           int pieces);
+
+/// The edges of quads as thin lines.
+PictureLayer quad_edges(const QuadMesh& mesh);
 
 /// A polyline as it lies on the surface, in pieces of at most `finest`.
 Polyline laid_on_surface(const Polyline& points, const SurfaceQueries& surface, double finest);

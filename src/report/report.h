@@ -2,13 +2,16 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "adaptation/adaptation.h"
 #include "adaptation/conformity.h"
 #include "meshing/comparison.h"
+#include "meshing/quad_quality.h"
 #include "meshing/remesh.h"
+#include "meshing/remesh_quads.h"
 
 namespace fcn {
 
@@ -29,6 +32,14 @@ struct ComparedMesh {
     ComparisonRow row;  ///< the mesh and its measures, or why there is none
 };
 
+/// Quads of one scale and their measures.
+struct QuadRecord {
+    QuadResult result;
+    QuadQuality quality;
+    MeshDistance distance;    ///< against the input
+    QuadAlignment alignment;  ///< with the adapted network
+};
+
 /// Everything that was done for one mesh at one scale.
 struct ScaleRecord {
     std::string label;  ///< as typed: "2%"
@@ -42,6 +53,7 @@ struct ScaleRecord {
     bool has_remesh = false, has_initial_remesh = false;
     ComparisonRow remesh_row;            ///< measures of the remesh; its mesh is above
     std::vector<ComparedMesh> compared;  ///< the remesh on the initial network, and baselines
+    std::optional<QuadRecord> quads;     ///< where quads are the target
 };
 
 struct MeshRecord {

@@ -122,4 +122,14 @@ std::string ReportPictures::remesh(const ScaleRecord& scale) const {
     return render_png(scale.remesh.mesh, layers, options(true));
 }
 
+std::string ReportPictures::quads(const ScaleRecord& scale) const {
+    const Mesh mesh = triangle_mesh(scale.quads->result.mesh);
+    std::vector<PictureLayer> layers{quad_edges(scale.quads->result.mesh)};
+    for (PictureLayer& layer :
+         segment_layers(scale.adaptation.network, SurfaceQueries(mesh), kMedium))
+        layers.push_back(std::move(layer));
+    layers.resize(3);  // the mesh shows the nodes
+    return render_png(mesh, layers, options());
+}
+
 }  // namespace fcn

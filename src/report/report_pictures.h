@@ -42,6 +42,8 @@ public:
     std::string adapted(const ScaleRecord& scale) const;
     /// The remeshed surface with its edges and the adapted network.
     std::string remesh(const ScaleRecord& scale) const;
+    /// The quads of this scale, which has some, with their edges and the adapted network.
+    std::string quads(const ScaleRecord& scale) const;
 
 private:
     PictureOptions options(bool is_wireframe = false) const;

@@ -123,6 +123,7 @@ private:
         write_messages("Notes on the adapted network", scale.adaptation.network.notes);
         if (scale.has_remesh)
             write_table(html_, ways_table(scale, bounding_box(record_.mesh.mesh).diagonal()));
+        if (scale.quads) write_quads(*scale.quads);
         if (!scale.solvers.empty()) write_table(html_, solver_table(scale, has_timings_));
         if (!scale.adaptation.report.iterations.empty())
             write_table(html_, iteration_table(scale, has_timings_));
@@ -183,7 +184,20 @@ private:
                              format_significant(kEdgeLengthFactor * scale.rmin) +
                              " on the adapted network.",
                          {{palette.kept, "feature edges"}, {palette.pinned, "pinned edges"}});
+        if (scale.quads)
+            write_figure(drawn.quads,
+                         name + " remeshed with " +
+                             plural(scale.quads->quality.faces, "quad", "quads") +
+                             " on the adapted network.",
+                         "Quads on the adapted network.",
+                         {{palette.kept, "kept"}, {palette.pinned, "pinned"}});
         html_.close();
+    }
+
+    void write_quads(const QuadRecord& quads) {
+        write_table(html_, quad_table(quads, bounding_box(record_.mesh.mesh).diagonal()));
+        if (!quads.result.reason.empty())
+            html_.element("p", "Quads: " + quads.result.reason, {{"class", "facts"}});
     }
 
     void write_dropped(const FeatureCurveNetwork& network) {
@@ -247,7 +261,8 @@ std::string scale_id(std::size_t mesh, std::size_t scale) {
 std::size_t DrawnMesh::picture_bytes() const {
     std::size_t bytes = initial.size() + orbits.size();
     for (const DrawnScale& scale : scales)
-        bytes += scale.fate.size() + scale.adapted.size() + scale.remesh.size();
+        bytes +=
+            scale.fate.size() + scale.adapted.size() + scale.remesh.size() + scale.quads.size();
     return bytes;
 }
 
@@ -266,6 +281,7 @@ DrawnMesh draw_pictures(const MeshRecord& record, int width, int height) {
         jobs.push_back([&] { place.fate = pictures.fate(scale); });
         jobs.push_back([&] { place.adapted = pictures.adapted(scale); });
         if (scale.has_remesh) jobs.push_back([&] { place.remesh = pictures.remesh(scale); });
+        if (scale.quads) jobs.push_back([&] { place.quads = pictures.quads(scale); });
     }
     tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t job) { jobs[job](); });
     return drawn;

@@ -11,7 +11,7 @@ namespace fcn {
 
 /// Pictures of one scale, as PNG; empty where there is none.
 struct DrawnScale {
-    std::string fate, adapted, remesh;
+    std::string fate, adapted, remesh, quads;
 };
 
 /// What of a mesh has been drawn for its section of the report.

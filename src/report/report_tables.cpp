@@ -141,6 +141,28 @@ HtmlTable ways_table(const ScaleRecord& scale, double diagonal) {
     return table;
 }
 
+HtmlTable quad_table(const QuadRecord& quads, double diagonal) {
+    HtmlTable table;
+    table.caption = "Quads";
+    table.header = {"Made by",
+                    "Quads",
+                    "Mean scaled Jacobian",
+                    "Least",
+                    "Inverted corners",
+                    "Irregular vertices",
+                    "Hausdorff",
+                    "Off kept curves"};
+    table.rows.push_back({quads.result.tier == QuadTier::Field ? "cross field" : "pairing",
+                          count_text(quads.quality.faces),
+                          format_number(quads.quality.mean_scaled_jacobian, 3),
+                          format_number(quads.quality.min_scaled_jacobian, 3),
+                          count_text(quads.quality.inverted_corners),
+                          format_percent(quads.quality.share_irregular, 1),
+                          share_of(quads.distance.hausdorff, diagonal, 2),
+                          format_number(quads.alignment.mean_degrees, 1) + "\u00b0"});
+    return table;
+}
+
 HtmlTable solver_table(const ScaleRecord& scale, bool has_timings) {
     HtmlTable table;
     table.caption = "Solvers side by side";

@@ -14,6 +14,9 @@ void add_engineer_rows(const MeshRecord& mesh, HtmlTable& table);
 /// `diagonal`.
 HtmlTable ways_table(const ScaleRecord& scale, double diagonal);
 
+/// The quads of this scale; distances in percent of `diagonal`.
+HtmlTable quad_table(const QuadRecord& quads, double diagonal);
+
 /// Every solver on every problem of one scale, side by side.
 HtmlTable solver_table(const ScaleRecord& scale, bool has_timings);
 

@@ -372,6 +372,33 @@ class Run(ProgramTest):
         self.assertTrue((self.folder / "out/box/20pct/adapted.fcn.json").exists())
         self.assertTrue((self.folder / "out/box-2/20pct/adapted.fcn.json").exists())
 
+    def test_quads_are_made_measured_and_reported(self):
+        self.model("box", "--resolution", "0.2")
+        summary = self.succeed_json("run", "box.off", "--scales", "20%", "--target", "quad",
+                                    "--solvers", "none", "-o", "out")
+        scale = summary["meshes"][0]["scales"][0]
+        path = next(file for file in scale["files"] if file.endswith("quads.obj"))
+        measured = self.succeed_json("measure", path, "box.off", "--network",
+                                     "out/box/20pct/adapted.fcn.json")
+        self.assertEqual(measured["quads"], scale["quads"]["quads"])
+        self.assertEqual(measured["topology"]["euler_characteristic"], 2)
+        self.assertEqual(measured["quads"]["inverted_corners"], 0)
+        self.assertAlmostEqual(measured["alignment"]["mean_degrees"],
+                               scale["quads"]["alignment"]["mean_degrees"], places=3)
+        self.assertIn("<caption>Quads</caption>",
+                      (self.folder / "out/report.html").read_text(encoding="utf-8"))
+        again = self.succeed_json("remesh", "box.off", "--network",
+                                  "out/box/20pct/adapted.fcn.json", "--type", "quad", "-o",
+                                  "again.obj,again.vtu")
+        self.assertEqual(again["quads"], scale["quads"]["quads"])
+        self.assertEqual((self.folder / "again.obj").read_bytes(),
+                         (self.folder / path).read_bytes())
+        pairs = self.succeed_json("remesh", "box.off", "--network",
+                                  "out/box/20pct/adapted.fcn.json", "--type", "quad", "--tier",
+                                  "pairing", "-o", "pairs.off")
+        self.assertEqual(pairs["tier"], "pairing")
+        self.assertEqual(pairs["broken_segments"], [])
+
     def test_paper_mode_curve_unit_and_quad_target(self):
         self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")
         for options in (["--mode", "paper"], ["--unit", "curve"], ["--target", "quad"],
