@@ -10,107 +10,22 @@
 #include <algorithm>
 
 #include "meshing/grid_vertices.h"
+#include "meshing/grid_walk.h"
+#include "meshing/quad_rows.h"
 
 namespace fcn {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// The way from a whole point to the next, in the chart of a face it crosses.
-struct Step {
-    int face = -1;
-    int direction = 0;
-    GridPoint start, goal;
-};
-
-class QuadWalk {
-public:
-    QuadWalk(const GridMap& map, const GridVertices& vertices) : map_(map), vertices_(vertices) {}
-
-    /// Port at which the line out of port p arrives, -1: it does not.
-    int arrival(int p) const {
-        const GridPort& port = vertices_.port(p);
-        const GridPoint way = direction_vector(port.direction);
-        const std::int64_t unit = map_.unit();
-        Step step{port.face, port.direction, port.image,
-                  port.image + GridPoint{way.u * unit, way.v * unit}};
-        // Without folds a straight line of length 1 is in no face twice, apart from its charts.
-        for (int i = 0; i <= 4 * map_.face_count(); ++i) {
-            if (is_at_goal(step)) {
-                const int v = vertices_.find(step.face, step.goal);
-                return v < 0 ? -1 : vertices_.find_port(v, step.face, (step.direction + 2) & 3);
-            }
-            if (!leave_face(step)) return -1;
-        }
-        return -1;
-    }
-
-private:
-    bool is_at_goal(const Step& step) const {
-        const int h = 3 * step.face;
-        return map_.side(h, step.goal) >= 0 && map_.side(h + 1, step.goal) >= 0 &&
-               map_.side(h + 2, step.goal) >= 0;
-    }
-
-    void cross(Step& step, int h) const {
-        const GridTransition& transition = map_.across(h);
-        step = {GridMap::face(map_.twin(h)), (step.direction + transition.quarters) & 3,
-                transition(step.start), transition(step.goal)};
-    }
-
-    bool leave_face(Step& step) const {
-        const GridPoint way = direction_vector(step.direction);
-        std::int64_t sides[3];
-        for (int i = 0; i < 3; ++i) {
-            const GridPoint p = map_.image(3 * step.face + i) - step.start;
-            sides[i] = way.u * p.v - way.v * p.u;
-        }
-        int exit = -1;
-        std::int64_t farthest = 0;
-        for (int i = 0; i < 3; ++i) {
-            const int h = 3 * step.face + i;
-            if (sides[i] < 0 && sides[(i + 1) % 3] > 0) {
-                if (map_.twin(h) < 0) return false;
-                cross(step, h);
-                return true;
-            }
-            const GridPoint p = map_.image(h) - step.start;
-            const std::int64_t along = way.u * p.u + way.v * p.v;
-            if (sides[i] == 0 && (exit < 0 || along > farthest)) {
-                exit = h;
-                farthest = along;
-            }
-        }
-        return exit >= 0 && pass_vertex(step, exit);
-    }
-
-    /// Goes on from the origin of h, a corner of the step's face.
-    bool pass_vertex(Step& step, int h) const {
-        const Step before = step;
-        const int first = h;
-        do {
-            if (map_.is_in_corner(h, step.direction)) return true;
-            const int end = GridMap::prev(h);
-            if (map_.twin(end) < 0) {
-                if (map_.is_on_corner_end(h, step.direction)) return true;
-                break;
-            }
-            cross(step, end);
-            h = map_.twin(end);
-        } while (h != first);
-        step = before;
-        for (h = first; map_.twin(h) >= 0;) {
-            cross(step, h);
-            h = GridMap::next(map_.twin(h));
-            if (h == first) return false;
-            if (map_.is_in_corner(h, step.direction)) return true;
-        }
-        return false;
-    }
-
-    const GridMap& map_;
-    const GridVertices& vertices_;
-};
+/// Port at which the line out of port p arrives, -1: it does not.
+int arrival(const GridWalk& walk, const GridMap& map, const GridVertices& vertices, int p) {
+    const GridPort& port = vertices.port(p);
+    const auto there = walk.go({port.face, port.image, port.direction}, map.unit());
+    if (!there) return -1;
+    const int v = vertices.find(there->face, there->image);
+    return v < 0 ? -1 : vertices.find_port(v, there->face, (there->direction + 2) & 3);
+}
 
 /// Links of ports, or the first fault.
 struct Links {
@@ -132,10 +47,10 @@ Links link_ports(const GridMap& map, const GridVertices& vertices) {
     for (int v = 0; v < vertices.count(); ++v)
         for (int p = vertices.first_port(v); p < vertices.first_port(v + 1); ++p)
             links.owners[at(p)] = v;
-    const QuadWalk walk(map, vertices);
+    const GridWalk walk(map);
     for (int p = 0; p < vertices.port_count(); ++p) {
         if (links.arrivals[at(p)] >= 0) continue;
-        const int q = walk.arrival(p);
+        const int q = arrival(walk, map, vertices, p);
         if (q < 0 || q == p || links.arrivals[at(q)] >= 0) {
             links.fault = "a line of the grid that starts at " +
                           name_of(vertices, links.owners[at(p)]) + " does not arrive";
@@ -154,8 +69,9 @@ int turn_left(const GridVertices& vertices, const Links& links, int p) {
     return vertices.is_boundary(v) ? -1 : vertices.first_port(v + 1) - 1;
 }
 
-/// Fills the mesh's faces; returns the first fault.
-std::string close_faces(const GridVertices& vertices, const Links& links, QuadMesh& mesh) {
+/// Fills the ports at which the sides of faces begin; returns the first fault.
+std::string close_faces(const GridVertices& vertices, const Links& links,
+                        std::vector<std::array<int, 4>>& faces) {
     std::vector<char> is_used(links.arrivals.size(), 0);
     for (int start = 0; start < vertices.port_count(); ++start) {
         if (is_used[at(start)]) continue;
@@ -169,14 +85,14 @@ std::string close_faces(const GridVertices& vertices, const Links& links, QuadMe
                        " has not four sides";
             }
             is_used[at(p)] = 1;
-            face[at(sides++)] = links.owners[at(p)];
+            face[at(sides++)] = p;
             p = turn_left(vertices, links, links.arrivals[at(p)]);
         } while (p != start);
         if (sides < 4) {
             return "a face that starts at " + name_of(vertices, links.owners[at(start)]) + " has " +
                    std::to_string(sides) + " sides";
         }
-        mesh.faces.push_back(face);
+        faces.push_back(face);
     }
     return {};
 }
@@ -209,14 +125,18 @@ QuadExtraction extract_quads(const Mesh& domain, const CornerMap& map) {
     const Links links = link_ports(grid, vertices);
     result.fault = links.fault;
     if (!result.fault.empty()) return result;
-    QuadMesh mesh;
-    result.fault = close_faces(vertices, links, mesh);
+    std::vector<std::array<int, 4>> sides;
+    result.fault = close_faces(vertices, links, sides);
     if (!result.fault.empty()) return result;
-    for (int v = 0; v < vertices.count(); ++v) {
-        result.places.push_back(vertices.place(v));
+    DividedRows rows = divide_rows(grid, vertices, links.owners, links.arrivals, sides);
+    QuadMesh mesh;
+    mesh.faces = std::move(rows.faces);
+    result.divided_rows = rows.divided;
+    result.places = std::move(rows.places);
+    for (const SurfacePoint& place : result.places) mesh.points.push_back(position(domain, place));
+    for (int v = 0; v < vertices.count(); ++v)
         result.domain_vertices.push_back(vertices.mesh_vertex(v));
-        mesh.points.push_back(position(domain, result.places.back()));
-    }
+    result.domain_vertices.resize(mesh.points.size(), -1);
     result.fault = compare_topology(mesh, domain);
     if (result.fault.empty()) {
         result.mesh = std::move(mesh);

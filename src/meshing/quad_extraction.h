@@ -15,6 +15,7 @@ struct QuadExtraction {
     QuadMesh mesh;                     ///< empty if there is a fault
     std::vector<SurfacePoint> places;  ///< per vertex: where it is on the domain
     std::vector<int> domain_vertices;  ///< per vertex: the domain's vertex it is; -1: none
+    int divided_rows = 0;              ///< rows of quads that were divided where tubes are thin
 };
 
 /// The quads that the grid of whole numbers cuts a domain into. The map must keep orientation, have
