@@ -49,6 +49,7 @@ public:
         std::vector<int> next(begin_.begin(), begin_.end() - 1);
         for (int c = 0; c < static_cast<int>(corners_.size()); ++c)
             corners_[at(next[at(vertex(c))]++)] = c;
+        if (options.leash > 0) homes_ = mesh.points;
         place_.assign(mesh.points.size(), -1);
         is_on_curve_.assign(mesh.points.size(), true);
         for (int v = 0; v < vertex_count(); ++v)
@@ -144,9 +145,17 @@ private:
                    : Vec3::Zero();
     }
 
+    /// Whether a move takes a free vertex farther from its home than it may be.
+    bool is_off_leash(int v, const Vec3& p) const {
+        if (homes_.empty() || curve(v) != QuadConstraints::kFree) return false;
+        const double distance = (p - homes_[at(v)]).norm();
+        return distance > options_.leash * options_.edge_length &&
+               distance > (point(v) - homes_[at(v)]).norm();
+    }
+
     bool try_move(int v, const Vec3& normal, Vec3 p, const Judgement& before, bool may_worsen) {
         int place = -1;
-        if (!land(v, normal, p, place)) return false;
+        if (!land(v, normal, p, place) || is_off_leash(v, p)) return false;
         const Judgement after =
             judge(v, p, place >= 0 ? reference_.normal(place) : Vec3(Vec3::Zero()));
         if (after.worst < std::min(before.worst, options_.least_sine)) return false;
@@ -215,6 +224,7 @@ private:
     std::vector<int> begin_, corners_;  ///< corners 4 f + i of each vertex
     std::vector<int> place_;            ///< face of the reference near the vertex, -1: unknown
     std::vector<bool> is_on_curve_;
+    std::vector<Vec3> homes_;  ///< where vertices were; empty: no matter
 };
 
 }  // namespace

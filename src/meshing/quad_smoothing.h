@@ -22,6 +22,8 @@ struct QuadSmoothingOptions {
     double edge_length = 0;   ///< h, mesh units, > 0
     int rounds = 20;          ///< of moving every vertex
     double least_sine = 0.3;  ///< moves make no corner worse than this, unless it was before
+    /// > 0: free vertices do not go farther than this from where they were, in h.
+    double leash = 0;
 };
 
 struct QuadSmoothingResult {

@@ -17,8 +17,8 @@
 #include "meshing/quad_curves.h"
 #include "meshing/quad_holes.h"
 #include "meshing/quad_map.h"
-#include "meshing/quad_shape.h"
 #include "meshing/quad_smoothing.h"
+#include "meshing/quad_tips.h"
 #include "meshing/singularity_refinement.h"
 
 namespace fcn {
@@ -30,8 +30,10 @@ constexpr double kShrinking = 0.9;
 constexpr double kFineShare = 1.0 / 3, kCoarseShare = 0.5;
 constexpr double kCurveWeight = 1;  ///< of alignment in the map, against the field's
 constexpr double kFilledLoop = 3;   ///< in edge lengths: such loops are closed for the map
+constexpr double kLeash = 0.5;      ///< in edge lengths, of smoothing: the map spread the vertices
+constexpr int kReleasedRings = 3;
 constexpr int kCurveRounds = 4;
-constexpr double kLeastJacobian = 0.15;  ///< of quads at curves
+constexpr double kLeastJacobian = 0.2;  ///< of quads; worse ones are bad
 constexpr double kManyTriangles = 60000;
 
 class Stopwatch {
@@ -136,31 +138,55 @@ private:
         QuadSmoothingOptions smoothing;
         smoothing.edge_length = edge_length;
         smoothing.rounds = options_.smoothing_rounds;
+        smoothing.leash = kLeash;
         for (int round = 0;; ++round) {
             QuadMesh trial = mesh;
             const QuadConstraints constraints =
                 move_to_curves(trial, input_.mesh, network_, curves);
+            const QuadMesh start = trial;
             smooth_quads(trial, constraints, reference_, smoothing);
+            release_bad_quads(trial, constraints, smoothing);
+            if (count_inverted_corners(trial) > 0) {
+                trial = start;
+                QuadSmoothingOptions free = smoothing;
+                free.leash = 0;
+                smooth_quads(trial, constraints, reference_, free);
+            }
             if (round < kCurveRounds && leave_out_bad_arcs(trial, curves)) continue;
             if (round == kCurveRounds)
                 curves.is_left_out.assign(network_.arcs.size(), true);
             else {
+                QuadTipOptions tips;
+                tips.smoothing = smoothing;
+                if (count_inverted_corners(trial) == 0)
+                    reach_tips(trial, constraints, input_.mesh, reference_, tips);
                 mesh = std::move(trial);
                 return count_inverted_corners(mesh);
             }
         }
     }
 
+    /// Smooths without a leash around quads that are bad, and nowhere else.
+    void release_bad_quads(QuadMesh& mesh, QuadConstraints constraints,
+                           QuadSmoothingOptions smoothing) const {
+        std::vector<bool> is_released = vertices_of_bad_quads(mesh, kLeastJacobian);
+        if (std::none_of(is_released.begin(), is_released.end(), [](bool b) { return b; })) return;
+        for (int ring = 0; ring < kReleasedRings; ++ring) {
+            const std::vector<bool> before = is_released;
+            for (const auto& face : mesh.faces)
+                if (std::any_of(face.begin(), face.end(),
+                                [&](int v) { return before[static_cast<std::size_t>(v)]; }))
+                    for (const int v : face) is_released[static_cast<std::size_t>(v)] = true;
+        }
+        for (std::size_t v = 0; v < is_released.size(); ++v)
+            if (!is_released[v]) constraints.curve[v] = QuadConstraints::kFixed;
+        smoothing.leash = 0;
+        smooth_quads(mesh, constraints, reference_, smoothing);
+    }
+
     /// Arcs on whose vertices there is a bad quad; whether there is one.
     bool leave_out_bad_arcs(const QuadMesh& mesh, QuadCurveOptions& curves) const {
-        std::vector<bool> is_bad(mesh.points.size(), false);
-        for (const auto& face : mesh.faces) {
-            QuadCorners quad;
-            for (std::size_t i = 0; i < 4; ++i)
-                quad[i] = mesh.points[static_cast<std::size_t>(face[i])];
-            if (scaled_jacobian(quad) < kLeastJacobian)
-                for (const int v : face) is_bad[static_cast<std::size_t>(v)] = true;
-        }
+        const std::vector<bool> is_bad = vertices_of_bad_quads(mesh, kLeastJacobian);
         bool is_any = false;
         for (const QuadFeatureEdge& edge : mesh.feature_edges) {
             if (!is_bad[static_cast<std::size_t>(edge.from)] &&
