@@ -54,22 +54,19 @@ public:
             place = snap_to_simplex(mesh_, station.surface, 0);
             if (place.kind == Kind::Vertex) return place.index;
         }
-        const int id = find_or_add(place, 0);
+        // As curves' points do, or the curves that end here would all pass through that vertex.
+        const int end = near_end(place);
+        const bool is_free = end >= 0 && !is_taken_[static_cast<std::size_t>(end)];
+        const int id = is_free ? end : find_or_add(place, 0);
         positions_[static_cast<std::size_t>(id)] = station.position;
-        if (place.kind == Kind::Vertex) is_taken_[static_cast<std::size_t>(place.index)] = true;
+        if (id < static_cast<int>(is_taken_.size())) is_taken_[static_cast<std::size_t>(id)] = true;
         return id;
     }
 
     /// The id of a curve's point, merged with points closer than the snapping distance.
     int add(SimplexPoint place) {
-        if (place.kind == Kind::Edge) {
-            const auto halfedge = mesh_.halfedge_handle(EdgeHandle(place.index), 0);
-            const double length = mesh_.calc_edge_length(halfedge);
-            const double share = std::min(0.05, snap_ / length);
-            if (place.t <= share) return mesh_.from_vertex_handle(halfedge).idx();
-            if (place.t >= 1 - share) return mesh_.to_vertex_handle(halfedge).idx();
-        }
-        return find_or_add(place, snap_);
+        const int end = near_end(place);
+        return end >= 0 ? end : find_or_add(place, snap_);
     }
 
     const SimplexPoint& place(int id) const { return places_[static_cast<std::size_t>(id)]; }
@@ -95,6 +92,16 @@ public:
     }
 
 private:
+    /// The end of an edge that a point on it is merged with; -1 elsewhere.
+    int near_end(const SimplexPoint& place) const {
+        if (place.kind != Kind::Edge) return -1;
+        const auto halfedge = mesh_.halfedge_handle(EdgeHandle(place.index), 0);
+        const double share = std::min(0.05, snap_ / mesh_.calc_edge_length(halfedge));
+        if (place.t <= share) return mesh_.from_vertex_handle(halfedge).idx();
+        if (place.t >= 1 - share) return mesh_.to_vertex_handle(halfedge).idx();
+        return -1;
+    }
+
     int find_or_add(const SimplexPoint& place, double tolerance) {
         if (place.kind == Kind::Vertex) return place.index;
         const Vec3 here = position(mesh_, place);

@@ -8,6 +8,7 @@
 
 #include "geometry/errors.h"
 #include "meshing/embedding.h"
+#include "meshing/triangle_shape.h"
 
 namespace fcn {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 constexpr double kSnapShare = 0.03;      ///< of L: points closer than this to an edge lie on it
 constexpr double kFlatnessShare = 0.01;  ///< of L: how closely the embedding follows the samples
 constexpr int kMaxUntangling = 3;        ///< rounds of embedding
+constexpr double kSharedEnd = 0.1;  ///< of L: curves may run together for so long before a node
+constexpr double kLeastTurn = 0.5;  ///< cosine of the angle that faces may turn by there
 constexpr double kCornerCosine = 0.7071067811865476;  ///< borders that turn more keep the vertex
 
 int label_of(const LoadedMesh& mesh, int face) {
@@ -63,6 +66,36 @@ void fix_corners(WorkingMesh& mesh) {
     }
 }
 
+bool keeps_faces(const WorkingMesh& mesh, int vanishing, int staying) {
+    const Vec3 &here = mesh.point(vanishing), &there = mesh.point(staying);
+    return mesh.visit_star(vanishing, [&](int h) {
+        const int b = mesh.to(h), c = mesh.apex(h);
+        if (b == staying || c == staying) return true;
+        const Vec3 &pb = mesh.point(b), &pc = mesh.point(c);
+        return triangle_normal(there, pb, pc).dot(triangle_normal(here, pb, pc)) > kLeastTurn;
+    });
+}
+
+/// Where curves run together just before the node they all end in, the node is brought forward to
+/// where they meet, or the edge they share would stay, however short it is.
+void close_shared_ends(WorkingMesh& mesh, const std::vector<bool>& is_shared, double longest) {
+    const auto close = [&](int h) {
+        if (!mesh.is_halfedge_alive(h) || mesh.role(h) != EdgeRole::Feature) return false;
+        const int v = mesh.to(h), node = mesh.from(h);
+        if (!mesh.is_fixed(node) || mesh.is_fixed(v) || mesh.is_on_boundary(v) ||
+            !is_shared[static_cast<std::size_t>(v)] ||
+            (mesh.point(v) - mesh.point(node)).norm() > longest || !mesh.can_collapse(h, v) ||
+            !keeps_faces(mesh, v, node))
+            return false;
+        mesh.collapse(h, v);
+        return true;
+    };
+    for (bool is_closing = true; is_closing;) {
+        is_closing = false;
+        for (int h = 0; h < mesh.halfedge_end(); ++h) is_closing = close(h) || is_closing;
+    }
+}
+
 /// Each vertex begins at a face of the input around it.
 void place_vertices(WorkingMesh& mesh, const std::vector<int>& source_face) {
     for (int v = 0; v < mesh.vertex_end(); ++v)
@@ -71,22 +104,27 @@ void place_vertices(WorkingMesh& mesh, const std::vector<int>& source_face) {
                            source_face[static_cast<std::size_t>(WorkingMesh::face(mesh.out(v)))]);
 }
 
-WorkingMesh mark(const LoadedMesh& input, EmbeddedMesh embedded) {
+WorkingMesh mark(const LoadedMesh& input, EmbeddedMesh embedded, double edge_length) {
     std::vector<int> labels;
     labels.reserve(embedded.source_face.size());
     for (const int face : embedded.source_face) labels.push_back(label_of(input, face));
     WorkingMesh mesh(std::move(embedded.points), embedded.triangles, std::move(labels));
     for (const int vertex : embedded.station_vertex)
         if (vertex >= 0) mesh.fix(vertex);
+    std::vector<bool> is_shared(static_cast<std::size_t>(mesh.vertex_end()), false);
     for (const auto& chain : embedded.chains) {
         for (std::size_t i = 1; i < chain.size(); ++i) {
             const int h = mesh.find_edge(chain[i - 1], chain[i]);
             if (h < 0) throw LogicError("remesh: a chain leaves the mesh's edges");
+            if (mesh.role(h) == EdgeRole::Feature)
+                for (const int v : {chain[i - 1], chain[i]})
+                    is_shared[static_cast<std::size_t>(v)] = true;
             mesh.set_role(h, EdgeRole::Feature);
         }
     }
     mesh.track(embedded.station_vertex);
     place_vertices(mesh, embedded.source_face);
+    close_shared_ends(mesh, is_shared, kSharedEnd * edge_length);
     fix_corners(mesh);
     return mesh;
 }
@@ -102,7 +140,7 @@ WorkingMesh working_mesh(const LoadedMesh& input) {
         plain.triangles.push_back({v[0].idx(), v[1].idx(), v[2].idx()});
         plain.source_face.push_back(face.idx());
     }
-    return mark(input, std::move(plain));
+    return mark(input, std::move(plain), 0);
 }
 
 std::vector<int> broken_pieces(const WorkingMesh& mesh, const FeaturePieces& pieces) {
@@ -127,7 +165,8 @@ NetworkInMesh embed_network(const LoadedMesh& input, const FeatureCurveNetwork& 
             warnings.push_back(std::to_string(embedded.lost_pieces) +
                                " pieces of the network join points that are not connected, or "
                                "only far around; they are left out");
-        return {mark(input, std::move(embedded)), std::move(pieces), std::move(warnings)};
+        return {mark(input, std::move(embedded), edge_length), std::move(pieces),
+                std::move(warnings)};
     } catch (const LogicError& error) {
         warnings.push_back(std::string("the network could not be embedded (") + error.what() +
                            "); remeshed without it");

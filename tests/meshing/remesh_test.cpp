@@ -146,6 +146,40 @@ TEST(Remesh, LongSegmentIsSplitOnce) {
     EXPECT_LE(nearest_vertex(result.mesh.mesh, {0.5, 0.503, 0}), 1e-9);
 }
 
+TEST(Remesh, CurvesThatRunTogetherBeforeTheirNodeEndInIt) {
+    // A node beside a vertex of the mesh, and three curves that come from the vertex's far side.
+    std::mt19937_64 engine(3);
+    std::uniform_real_distribution<double> share(-1, 1);
+    std::size_t broken = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+        LoadedMesh mesh;
+        mesh.mesh = test::rectangle(1, 1, 20, 20);
+        FeatureCurveNetwork network;
+        network.scale = 0.1;
+        const Vec3 beside(0.5 + 0.003 * share(engine), 0.5 + 0.003 * share(engine), 0);
+        network.nodes.push_back({beside, {}});
+        const Vec3 away = (Vec3(0.5, 0.5, 0) - beside).normalized();
+        for (const double turn : {-1.0, 0.0, 1.0}) {
+            const Vec3 end =
+                beside + 0.12 * (away + turn * Vec3(-away.y(), away.x(), 0)).normalized();
+            const int node = static_cast<int>(network.nodes.size());
+            network.nodes.push_back({end, {}});
+            NetworkArc arc;
+            arc.nodes = {0, node};
+            arc.samples = {{beside, {}}, {end, {}}};
+            network.segments.push_back({{0, node}, static_cast<int>(network.arcs.size()), 0, 1});
+            network.arcs.push_back(arc);
+        }
+        RemeshOptions options;
+        options.edge_length = 0.12;
+        const RemeshResult result = remesh_triangles(mesh, network, options);
+        expect_sound(mesh, network, result);
+        broken += result.broken_segments.size();
+    }
+    // Of 180; where no collapse is left that keeps the mesh sound a segment stays in pieces.
+    EXPECT_LE(broken, 6U);
+}
+
 TEST(Remesh, BoundaryIsKeptWithoutANetwork) {
     LoadedMesh mesh;
     mesh.mesh = test::rectangle(1, 0.7, 30, 30);
