@@ -56,6 +56,7 @@ public:
             if (!make_seamless()) return;
             is_complete = !add_corners();
         }
+        keep_boundary();
         choose_integers();
         reach_integers();
         statistics().untangling += watch_.lap();
@@ -77,6 +78,8 @@ private:
         const int index = indices_[static_cast<std::size_t>(vertex.idx())];
         const int quarters = quarters_around(mesh_, map, vertex);
         if (!mesh_.is_boundary(vertex)) return quarters == 4 - index;
+        if (!boundary_quarters_.empty())
+            return quarters == boundary_quarters_[static_cast<std::size_t>(vertex.idx())];
         return quarters >= 1 && quarters <= 4 && ((quarters - index) & 1) == 0;
     }
     /// Vertices around which the map winds otherwise than the field.
@@ -164,6 +167,16 @@ private:
                 quarters_around(mesh_, map, vertex) == 4)
                 guidance_.grid_vertices.push_back(vertex.idx());
         return !guidance_.grid_vertices.empty();
+    }
+
+    /// From now on the boundary turns as in the seamless map.
+    void keep_boundary() {
+        const CornerMap map = map_of(seamless_);
+        boundary_quarters_.assign(mesh_.n_vertices(), 0);
+        for (const VertexHandle vertex : mesh_.vertices())
+            if (mesh_.is_boundary(vertex) && !mesh_.is_isolated(vertex))
+                boundary_quarters_[static_cast<std::size_t>(vertex.idx())] =
+                    quarters_around(mesh_, map, vertex);
     }
 
     void choose_integers() {
@@ -298,6 +311,7 @@ private:
     const Mesh& mesh_;
     const CrossField& field_;
     std::vector<int> indices_;
+    std::vector<int> boundary_quarters_;  ///< per vertex, once there is a seamless map
     MapGuidance guidance_;
     MapProblem problem_;
     QuadraticEnergy energy_;
