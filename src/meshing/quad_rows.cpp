@@ -145,6 +145,8 @@ private:
         const auto add_shortest = [&](const std::vector<int>& candidates) {
             int best = -1;
             for (const int r : candidates)
+                if (std::find(rows.begin(), rows.end(), r) != rows.end()) return;
+            for (const int r : candidates)
                 if (parts_[at(r)] < kMostParts &&
                     (best < 0 ||
                      lengths_[at(r)] * parts_[at(r)] < lengths_[at(best)] * parts_[at(best)]))

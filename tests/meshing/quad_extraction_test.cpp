@@ -125,6 +125,36 @@ TEST(QuadExtraction, FollowsLinesAcrossSlivers) {
         << sheared.fault;
 }
 
+/// A torus with `around` squares along each quarter of its tube and one along a sixth of its axis.
+MappedMesh thin_torus(double around) {
+    MappedMesh mapped = mapped_patches(test::quad_torus(3, 1, 6, 4), {4, 1, 0.2, false, 2});
+    for (std::size_t f = 0; f < mapped.map.uv.size(); ++f) {
+        const std::size_t patch = f / 32;
+        for (Vec2& p : mapped.map.uv[f])
+            p = {p[0] + static_cast<double>(patch % 6),
+                 around * (p[1] + static_cast<double>(patch / 6))};
+    }
+    return mapped;
+}
+
+TEST(QuadExtraction, DividesRowsAroundThinTubes) {
+    const QuadExtraction wide = extract(thin_torus(1));
+    EXPECT_EQ(wide.fault, "");
+    EXPECT_EQ(wide.divided_rows, 0);
+    EXPECT_EQ(wide.mesh.faces.size(), 24u);
+    for (const double around : {0.5, 0.25}) {
+        const MappedMesh mapped = thin_torus(around);
+        const QuadExtraction thin = extract(mapped);
+        ASSERT_EQ(thin.fault, "") << around;
+        EXPECT_EQ(thin.divided_rows, 1);
+        EXPECT_EQ(thin.mesh.faces.size(), 18u);  // three around, the fewest there can be
+        EXPECT_EQ(check_topology(thin.mesh).euler_characteristic, 0);
+        EXPECT_TRUE(irregular_valences(thin.mesh).empty());
+        for (std::size_t v = 0; v < thin.places.size(); ++v)
+            EXPECT_EQ(position(mapped.mesh, thin.places[v]), thin.mesh.points[v]);
+    }
+}
+
 TEST(QuadExtraction, IsDeterministic) {
     const MappedMesh mapped = mapped_patches(test::quad_cube(), {8, 5, 0.25, true, 5});
     const QuadExtraction first = extract(mapped), second = extract(mapped);
