@@ -22,6 +22,7 @@ using Eigen::VectorXd;
 
 constexpr double kGrid = 1073741824.0;  ///< 2^30 coordinates a unit
 constexpr double kLargest = 4194304.0;  ///< 2^22: of a coordinate
+constexpr int kMostIntegers = 1500;     ///< their matrices are dense
 constexpr int kStiffRings = 10;         ///< around singular vertices
 constexpr double kFirstStep = 0.1;      ///< of the way from the seamless map to the integers
 constexpr int kSeamlessAttempts = 5;    ///< at a seamless map that winds as the field does
@@ -57,7 +58,7 @@ public:
             is_complete = !add_corners();
         }
         keep_boundary();
-        choose_integers();
+        if (!choose_integers()) return;
         reach_integers();
         statistics().untangling += watch_.lap();
         finish();
@@ -179,9 +180,15 @@ private:
                     quarters_around(mesh_, map, vertex);
     }
 
-    void choose_integers() {
+    bool choose_integers() {
+        const auto count = std::count(is_integer().begin(), is_integer().end(), true);
+        statistics().integers = static_cast<int>(count);
+        if (count > kMostIntegers) {
+            result_.fault = std::to_string(count) + " integers to choose, more than " +
+                            std::to_string(kMostIntegers);
+            return false;
+        }
         const IntegerEnergy integers = integer_energy(energy_, is_integer());
-        statistics().integers = static_cast<int>(integers.unknowns.size());
         CoarseLayout layout;
         layout.free_values = seamless_;
         if (statistics().seamless_after == 0)
@@ -193,6 +200,7 @@ private:
         for (std::size_t i = 0; i < integers.unknowns.size(); ++i)
             target_[integers.unknowns[i]] = chosen.integers[static_cast<int>(i)];
         statistics().quantising = watch_.lap();
+        return true;
     }
 
     bool is_sound(const UntanglingResult& untangled) const {
