@@ -143,6 +143,42 @@ TEST(QuadMap, OfAPlaneIsTheGrid) {
     EXPECT_EQ(extract_quads(mesh, result.map).mesh.faces.size(), 12U);
 }
 
+TEST(CornerMap, EachFaultIsFound) {
+    const Mesh mesh = test::rectangle(4, 3, 8, 6);
+    CornerMap map;
+    for (const FaceHandle face : mesh.faces()) {
+        const auto corners = face_vertices(mesh, face);
+        auto& uv = map.uv.emplace_back();
+        for (std::size_t i = 0; i < 3; ++i) uv[i] = mesh.point(corners[i]).head<2>();
+    }
+    ASSERT_TRUE(corner_map_faults(mesh, map).is_none());
+    CornerMap changed = map;
+    for (auto& uv : changed.uv)
+        for (Vec2& p : uv) p = turned(p, 1) + Vec2(7, -2);
+    EXPECT_TRUE(corner_map_faults(mesh, changed).is_none());
+    for (auto& uv : changed.uv)
+        for (Vec2& p : uv) p[0] += 0.5;
+    CornerMapFaults faults = corner_map_faults(mesh, changed);
+    EXPECT_EQ(faults.free_boundary, 16U);  // two sides of eight edges
+    EXPECT_EQ(faults.fractional_corners, 4U);
+    EXPECT_EQ(faults.open_edges + faults.turned_over_faces, 0U);
+    changed = map;
+    for (auto& uv : changed.uv)
+        for (Vec2& p : uv) p[0] = -p[0];
+    EXPECT_EQ(corner_map_faults(mesh, changed).turned_over_faces, mesh.n_faces());
+    changed = map;
+    changed.uv[50][0] += Vec2(std::ldexp(1, -40), 0);
+    EXPECT_EQ(corner_map_faults(mesh, changed).open_edges, 2U);
+    changed = map;
+    for (Vec2& p : changed.uv[50]) p += Vec2(0.25, 0);
+    EXPECT_EQ(corner_map_faults(mesh, changed).fractional_edges, 3U);
+    // A triangle whose area is 2^-60 of its sides' product, and the same turned over.
+    const double tiny = std::ldexp(1, -30);
+    EXPECT_EQ(image_orientation({Vec2(0, 0), Vec2(1, 1), Vec2(1 + tiny, 1 + 2 * tiny)}), 1);
+    EXPECT_EQ(image_orientation({Vec2(0, 0), Vec2(1 + tiny, 1), Vec2(1, 1 - tiny)}), -1);
+    EXPECT_EQ(image_orientation({Vec2(0, 0), Vec2(3, 1), Vec2(6, 2)}), 0);
+}
+
 TEST(QuadMap, OfARectangleBetweenWholeNumbersIsStretched) {
     const Mesh mesh = test::rectangle(4.3, 2.6, 13, 9);
     const CrossField field = field_along(mesh, [](const Vec3&) { return Vec3(0, 1, 0); });
