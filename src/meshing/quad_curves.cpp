@@ -15,9 +15,10 @@
 namespace fcn {
 namespace {
 
-constexpr double kStep = 0.1;    ///< between points of a curve, in edge lengths
-constexpr int kWindow = 15;      ///< points that a vertex may slide either way
-constexpr double kLeastArc = 1;  ///< edge lengths; shorter arcs are left alone
+constexpr double kStep = 0.1;       ///< between points of a curve, in edge lengths
+constexpr int kWindow = 15;         ///< points that a vertex may slide either way
+constexpr double kLeastHalved = 4;  ///< edge lengths; shorter pieces are not halved
+constexpr double kLeastArc = 1;     ///< edge lengths; shorter arcs are left alone
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -157,15 +158,37 @@ private:
     }
 
     void move_arc(const FeatureCurveNetwork& network, int a) {
-        const NetworkArc& arc = network.arcs[at(a)];
         std::vector<Vec3> polyline;
-        for (const ArcSample& sample : arc.samples) polyline.push_back(sample.position);
+        for (const ArcSample& sample : network.arcs[at(a)].samples)
+            polyline.push_back(sample.position);
+        move_piece(network, a, polyline);
+    }
+
+    /// A piece of an arc, or what can be moved of its halves.
+    void move_piece(const FeatureCurveNetwork& network, int a, const std::vector<Vec3>& polyline) {
         const SampledCurve curve = sample_curve(polyline, kStep * options_.edge_length);
-        const int from = node_vertices_[at(arc.nodes[0])], to = node_vertices_[at(arc.nodes[1])];
+        const NetworkArc& arc = network.arcs[at(a)];
+        const bool is_first = polyline.front() == arc.samples.front().position;
+        const bool is_last = polyline.back() == arc.samples.back().position;
+        const int from = is_first ? node_vertices_[at(arc.nodes[0])] : -1;
+        const int to = is_last ? node_vertices_[at(arc.nodes[1])] : -1;
         QuadPaths::Path path = paths_.find(curve, from, to);
         if (path.is_empty() && from >= 0) path = paths_.find(curve, -1, to);
         if (path.is_empty() && to >= 0) path = paths_.find(curve, from, -1);
         if (path.is_empty() && (from >= 0 || to >= 0)) path = paths_.find(curve, -1, -1);
+        if (path.is_empty()) {
+            if (curve.length < kLeastHalved * options_.edge_length) return;
+            const auto middle = curve.points.begin() + curve.last() / 2;
+            move_piece(network, a, {curve.points.begin(), middle + 1});
+            move_piece(network, a, {middle, curve.points.end()});
+            return;
+        }
+        follow(network, a, curve, path, from, to);
+    }
+
+    void follow(const FeatureCurveNetwork& network, int a, const SampledCurve& curve,
+                const QuadPaths::Path& path, int from, int to) {
+        const NetworkArc& arc = network.arcs[at(a)];
         const std::size_t count = path.vertices.size();
         for (std::size_t i = 0; i + 1 < count; ++i) {
             QuadFeatureEdge edge;
@@ -174,8 +197,8 @@ private:
             edge.arc = a;
             mesh_.feature_edges.push_back(edge);
         }
-        const double first = path.is_empty() ? 0 : path.parameters.front();
-        const double span = path.is_empty() ? 0 : path.parameters.back() - first;
+        const double first = path.parameters.front();
+        const double span = path.parameters.back() - first;
         for (std::size_t i = 0; i < count; ++i) {
             const int v = path.vertices[i];
             const double even =

@@ -14,7 +14,7 @@ namespace fcn {
 namespace {
 
 constexpr double kAwayCost = 6;       ///< of an edge at the reach, in its length
-constexpr double kLeastCosine = 0.7;  ///< of an edge and the curve beside it
+constexpr double kLeastCosine = 0.8;  ///< of an edge and the curve beside it
 constexpr double kLongestStep = 3;    ///< along the curve, in lengths of the edge
 constexpr double kMissedCost = 3;     ///< of the curve beyond the path's ends, in its length
 constexpr double kEndShare = 1.2;     ///< of the reach: a path may begin this far from the end
