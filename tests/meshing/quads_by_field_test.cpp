@@ -137,6 +137,25 @@ TEST(QuadsByField, IsTheFirstTier) {
     EXPECT_EQ(other.reason, "");
 }
 
+TEST(QuadsByField, WorksWithItsOwnSteps) {
+    QuadOptions options;
+    options.edge_length = 0.25;
+    for (const bool is_open : {false, true}) {
+        LoadedMesh mesh;
+        mesh.mesh = is_open ? test::rectangle(2, 1, 16, 8) : test::cube(8).mesh;
+        const QuadResult result = remesh_quads(mesh, {}, options);
+        EXPECT_EQ(result.tier, QuadTier::Field) << result.reason;
+        EXPECT_EQ(result.inverted_corners, 0);
+        const QuadTopology quads = check_topology(result.mesh), wanted = topology_of(mesh.mesh);
+        EXPECT_EQ(quads.fault, "");
+        EXPECT_EQ(quads.euler_characteristic, wanted.euler_characteristic);
+        EXPECT_EQ(quads.boundary_loops, wanted.boundary_loops);
+        const QuadResult again = remesh_quads(mesh, {}, options);
+        EXPECT_EQ(result.mesh.points, again.mesh.points);
+        EXPECT_EQ(result.mesh.faces, again.mesh.faces);
+    }
+}
+
 TEST(QuadsByField, RefusesABadLength) {
     QuadOptions options;
     for (const double length : {0.0, -1.0, std::nan("")}) {
