@@ -269,7 +269,8 @@ void add_run_arguments(CLI::App& parser, RunArguments& arguments) {
         ->capture_default_str();
     parser
         .add_option("--compare-time", arguments.comparison.time_limit,
-                    "Seconds for each compared solver (default: none)")
+                    "Seconds for each compared solver (default: 20 for those that count no "
+                    "ticks)")
         ->check(CLI::Range(1e-3, 1e9));
     parser
         .add_option("--compare-work", arguments.comparison.work_limit,

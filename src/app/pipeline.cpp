@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <optional>
 
@@ -15,6 +16,7 @@
 #include "app/run_baselines.h"
 #include "app/run_quads.h"
 #include "labeling/errors.h"
+#include "labeling/solver.h"
 #include "labeling_mip/mip_solvers.h"
 
 namespace fcn::app {
@@ -58,16 +60,23 @@ ConformityReport check_result(const AdaptationResult& result, const LoadedMesh& 
     return check_conformity(result.network, criteria, &mesh.mesh);
 }
 
+/// Other people's solvers do not count ticks, and on a hard problem would keep a run for hours.
+constexpr std::chrono::duration<double> kPeerTime{20};
+
 std::vector<SolverComparison> compare_solvers(const labeling::LabelingProblem& problem,
                                               const std::string& problem_name,
                                               const PipelineOptions& options) {
     const labeling::SolverRegistry registry = labeling::all_solvers();
+    const std::vector<std::string> own = labeling::builtin_solvers().names();
     std::vector<SolverComparison> rows;
     for (const std::string& name : options.compared_solvers) {
         if (is_interrupted()) break;
         SolverComparison row;
         try {
-            row = comparison_row(problem, registry.find(name)->solve(problem, options.comparison));
+            labeling::SolveOptions limits = options.comparison;
+            if (!limits.time_limit && std::ranges::find(own, name) == own.end())
+                limits.time_limit = kPeerTime;
+            row = comparison_row(problem, registry.find(name)->solve(problem, limits));
         } catch (const labeling::InputError& error) {  // e.g. an external program is missing
             row.status = error.what();
             row.value = row.bound = row.gap = row.seconds = kUnknown;
