@@ -65,7 +65,8 @@ struct RemeshResult {
 
 /// Incremental isotropic remeshing with the network embedded in the mesh and protected. Topology,
 /// boundaries, labels stay, and no triangles come to cross. Where the edge length cannot carry the
-/// surface edges get shorter, down to an eighth of it. Deterministic. Throws InputError.
+/// surface edges get shorter, down to an eighth of it, to a thirtieth around pinholes.
+/// Deterministic. Throws InputError.
 RemeshResult remesh_triangles(const LoadedMesh& mesh, const FeatureCurveNetwork& network,
                               const RemeshOptions& options);
 
