@@ -61,6 +61,7 @@ ConformityReport check_result(const AdaptationResult& result, const LoadedMesh& 
 }
 
 /// Other people's solvers do not count ticks, and on a hard problem would keep a run for hours.
+/// Where equal runs are to give equal bytes they may.
 constexpr std::chrono::duration<double> kPeerTime{20};
 
 std::vector<SolverComparison> compare_solvers(const labeling::LabelingProblem& problem,
@@ -74,7 +75,8 @@ std::vector<SolverComparison> compare_solvers(const labeling::LabelingProblem& p
         SolverComparison row;
         try {
             labeling::SolveOptions limits = options.comparison;
-            if (!limits.time_limit && std::ranges::find(own, name) == own.end())
+            if (!limits.time_limit && !options.common.is_timeless &&
+                std::ranges::find(own, name) == own.end())
                 limits.time_limit = kPeerTime;
             row = comparison_row(problem, registry.find(name)->solve(problem, limits));
         } catch (const labeling::InputError& error) {  // e.g. an external program is missing

@@ -74,6 +74,15 @@ void coarsen(WorkingMesh& mesh, const EdgeTarget& target) {
     coarsen_late(mesh, target, nullptr);
 }
 
+void remesh_once(WorkingMesh& mesh, const ReferenceSurface& reference, const EdgeTarget& target) {
+    split_long_edges(mesh, target);
+    collapse_short_edges(mesh, target, kShortestEdge);
+    straighten_chains(mesh, target);
+    flip_for_valence(mesh, target);
+    smooth(mesh, reference, target);
+    mesh.compact();
+}
+
 IncrementalStatistics remesh_incrementally(WorkingMesh& mesh, const ReferenceSurface& reference,
                                            const EdgeTarget& target,
                                            const IncrementalOptions& options) {
@@ -84,12 +93,7 @@ IncrementalStatistics remesh_incrementally(WorkingMesh& mesh, const ReferenceSur
     for (int i = 0; i < options.iterations; ++i) {
         if (i % kMarkEvery == 0)
             mark_thin_places(mesh, reference, thin_reach(target, kShortestEdge));
-        split_long_edges(mesh, target);
-        collapse_short_edges(mesh, target, kShortestEdge);
-        straighten_chains(mesh, target);
-        flip_for_valence(mesh, target);
-        smooth(mesh, reference, target);
-        mesh.compact();
+        remesh_once(mesh, reference, target);
     }
     statistics.iterating = seconds_since(start);
     flip_for_angles(mesh, target);

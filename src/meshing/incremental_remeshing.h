@@ -24,6 +24,9 @@ IncrementalStatistics remesh_incrementally(WorkingMesh& mesh, const ReferenceSur
                                            const EdgeTarget& target,
                                            const IncrementalOptions& options);
 
+/// One round of it: splits, collapses, chains, flips for valence, smoothing; ends compacted.
+void remesh_once(WorkingMesh& mesh, const ReferenceSurface& reference, const EdgeTarget& target);
+
 /// Only what makes chains of features single edges, with the mesh coarsened around them.
 void coarsen(WorkingMesh& mesh, const EdgeTarget& target);
 

@@ -140,14 +140,7 @@ private:
 void remesh(WorkingMesh& mesh, const ReferenceSurface& reference, const EdgeTarget& target,
             int iterations) {
     coarsen(mesh, target);
-    for (int i = 0; i < iterations; ++i) {
-        split_long_edges(mesh, target);
-        collapse_short_edges(mesh, target, kShortestEdge);
-        straighten_chains(mesh, target);
-        flip_for_valence(mesh, target);
-        smooth(mesh, reference, target);
-        mesh.compact();
-    }
+    for (int i = 0; i < iterations; ++i) remesh_once(mesh, reference, target);
     flip_for_angles(mesh, target);
 }
 
