@@ -8,6 +8,7 @@
 
 #include "app/adaptation_arguments.h"
 #include "app/command.h"
+#include "app/field_outputs.h"
 #include "app/inputs.h"
 #include "app/json_summary.h"
 #include "app/outputs.h"
@@ -28,6 +29,7 @@ struct RemeshArguments {
     std::string network_path;
     std::string type = "tri";
     std::vector<std::string> outputs;
+    std::vector<std::string> field_outputs;
     int iterations = 10;
     double curvature_tolerance = 0;
     std::string with = "own";
@@ -81,6 +83,10 @@ int remesh_to_quads(const RemeshArguments& arguments) {
         prepare_output(output, OutputKind::Quads, arguments.common);
     if (arguments.with != "own")
         throw UsageError("--with " + arguments.with + " goes with --type tri");
+    if (arguments.tier == "pairing" && !arguments.field_outputs.empty())
+        throw UsageError("--field: quads by pairing follow no field");
+    const FieldOutputs field_outputs =
+        prepare_field_outputs(arguments.field_outputs, arguments.outputs, arguments.common);
     const RemeshInputs inputs = read_inputs(arguments);
     QuadOptions options;
     options.edge_length = inputs.edge_length;
@@ -92,24 +98,30 @@ int remesh_to_quads(const RemeshArguments& arguments) {
     options.threshold = arguments.threshold_degrees * std::numbers::pi / 180;
     const QuadResult result = remesh_quads(inputs.mesh, inputs.network, options);
     for (const std::string& warning : result.warnings) print_warning(arguments.common, warning);
-    for (const std::string& output : arguments.outputs) save_quads(output, result.mesh);
+    require_field(field_outputs, result);
+    std::vector<std::string> files = arguments.outputs;
+    for (const std::string& output : files) save_quads(output, result.mesh);
+    if (result.field)
+        for (std::string& file : save_field(field_outputs, *result.field, inputs.mesh.mesh))
+            files.push_back(std::move(file));
     if (std::ranges::find(arguments.outputs, "-") != arguments.outputs.end()) return kDone;
     const QuadQuality quality = measure_quads(result.mesh, inputs.edge_length);
     if (arguments.common.is_json) {
         Json json = quad_result_json(result, !arguments.common.is_timeless);
         json["quads"] = quad_quality_json(quality);
-        json["files"] = arguments.outputs;
+        json["files"] = files;
         print_json(json);
         return kDone;
     }
     fmt::print("{}\nmade by {}{}{}\n", quad_quality_text(quality), to_string(result.tier),
                result.reason.empty() ? "" : ": ", result.reason);
-    for (const std::string& output : arguments.outputs) fmt::print("wrote {}\n", output);
+    for (const std::string& output : files) fmt::print("wrote {}\n", output);
     return kDone;
 }
 
 int remesh(const RemeshArguments& arguments) {
     if (arguments.type == "quad") return remesh_to_quads(arguments);
+    if (!arguments.field_outputs.empty()) throw UsageError("--field goes with --type quad");
     for (const std::string& output : arguments.outputs) {
         prepare_output(output, OutputKind::MeshWithCurves, arguments.common);
         if (holds_curves_alone(output) && arguments.network_path.empty())
@@ -207,6 +219,11 @@ Command add_remesh_command(CLI::App& program) {
                      "Degrees that the surface turns by at an arc, with --guidance threshold")
         ->check(CLI::Range(0.0, 180.0))
         ->capture_default_str();
+    parser
+        ->add_option("--field", arguments->field_outputs,
+                     "Quads: .rosy file for the cross field on MESH's faces; with a mesh file "
+                     "behind a comma, on the finer triangles written there, which carried it")
+        ->delimiter(',');
     add_scale_arguments(*parser, arguments->scale);
     add_mesh_arguments(*parser, arguments->mesh);
     add_common_arguments(*parser, arguments->common);
@@ -215,6 +232,8 @@ Command add_remesh_command(CLI::App& program) {
         "  scalefcn remesh part.stl --network part_2pct.fcn.json -o part_2pct.obj\n"
         "  scalefcn remesh part.stl --network part_2pct.fcn.json -o part_2pct.mesh,part_2pct.vtp\n"
         "  scalefcn remesh part.stl --network part_2pct.fcn.json --type quad -o part_quads.obj\n"
+        "  scalefcn remesh part.stl --network part_2pct.fcn.json --type quad -o quads.obj "
+        "--field part.rosy\n"
         "  scalefcn remesh part.stl --edge-length 2.4 -o part_plain.obj");
     return {parser, [arguments] { return remesh(*arguments); }};
 }

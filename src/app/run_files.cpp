@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "app/field_outputs.h"
 #include "labeling/formats.h"
 #include "meshing/quad_files.h"
 #include "network/network_io.h"
@@ -72,6 +73,11 @@ std::vector<std::string> write_scale_files(const MeshRecord& record, const Scale
     if (scale.quads) {
         write_quads(folder / "quads.obj", scale.quads->result.mesh);
         files.push_back((folder / "quads.obj").string());
+        if (scale.quads->result.field)
+            for (std::string& file :
+                 save_field({(folder / "field.rosy").string(), (folder / "field.obj").string()},
+                            *scale.quads->result.field, record.mesh.mesh))
+                files.push_back(std::move(file));
     }
     for (std::string& file : write_problems(scale.adaptation.report, folder))
         files.push_back(std::move(file));

@@ -18,8 +18,8 @@ std::vector<std::string> write_steps(const AdaptationReport& report,
                                      const std::filesystem::path& folder);
 
 /// Writes what `run` leaves for one scale: initial.fcn.json, adapted.fcn.json, initial.obj,
-/// network.obj, remesh.obj, quads.obj and the problems. Returns the files in that order. Each is
-/// written under a temporary name and renamed.
+/// network.obj, remesh.obj, quads.obj, the field of the quads and the problems. Returns the files
+/// in that order. Each is written under a temporary name and renamed.
 std::vector<std::string> write_scale_files(const MeshRecord& record, const ScaleRecord& scale,
                                            const std::filesystem::path& folder);
 

@@ -16,10 +16,17 @@ Vec3 arm_direction(const Mesh& mesh, const CrossField& field, FaceHandle face) {
     return std::cos(angle) * x + std::sin(angle) * y;
 }
 
-std::string rosy_text(const Mesh& mesh, const CrossField& field) {
+std::vector<Vec3> arm_directions(const Mesh& mesh, const CrossField& field) {
+    std::vector<Vec3> arms;
+    arms.reserve(mesh.n_faces());
+    for (const FaceHandle face : mesh.faces()) arms.push_back(arm_direction(mesh, field, face));
+    return arms;
+}
+
+std::string rosy_text(const std::vector<Vec3>& arms) {
     TextWriter text;
-    text << mesh.n_faces() << "\n4\n";
-    for (const FaceHandle face : mesh.faces()) text << arm_direction(mesh, field, face) << '\n';
+    text << arms.size() << "\n4\n";
+    for (const Vec3& arm : arms) text << arm << '\n';
     return text.take();
 }
 

@@ -91,20 +91,26 @@ std::size_t count_close_pairs(const std::vector<Vec3>& points, double distance) 
     return count;
 }
 
+/// Per vertex the quads around it; 0 at the boundary.
+std::vector<int> inner_valences(const QuadMesh& mesh, const std::vector<int>& opposite) {
+    std::vector<int> valence(mesh.points.size(), 0);
+    for (const auto& face : mesh.faces)
+        for (const int v : face) ++valence[at(v)];
+    for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
+        if (opposite[at(h)] >= 0) continue;
+        const auto& face = mesh.faces[at(h / 4)];
+        valence[at(face[at(h) % 4])] = valence[at(face[at(h + 1) % 4])] = 0;
+    }
+    return valence;
+}
+
 void measure_singularities(const QuadMesh& mesh, const std::vector<int>& opposite,
                            double edge_length, QuadQuality& quality) {
-    std::vector<int> valence(mesh.points.size(), 0);
-    std::vector<bool> is_inner(mesh.points.size(), true);
-    for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
-        const auto& face = mesh.faces[at(h / 4)];
-        ++valence[at(face[at(h) % 4])];
-        if (opposite[at(h)] < 0)
-            is_inner[at(face[at(h) % 4])] = is_inner[at(face[at(h + 1) % 4])] = false;
-    }
     std::vector<Vec3> irregular;
+    const std::vector<int> valence = inner_valences(mesh, opposite);
     for (std::size_t v = 0; v < valence.size(); ++v) {
-        quality.inner_vertices += is_inner[v];
-        if (is_inner[v] && valence[v] != 4) irregular.push_back(mesh.points[v]);
+        quality.inner_vertices += valence[v] > 0;
+        if (valence[v] > 0 && valence[v] != 4) irregular.push_back(mesh.points[v]);
     }
     if (quality.inner_vertices > 0)
         quality.share_irregular =
@@ -203,6 +209,14 @@ QuadQuality measure_quads(const QuadMesh& mesh, double edge_length) {
     measure_edge_lengths(mesh, opposite, quality);
     measure_singularities(mesh, opposite, edge_length, quality);
     return quality;
+}
+
+std::vector<IrregularVertex> irregular_vertices(const QuadMesh& mesh) {
+    std::vector<IrregularVertex> result;
+    const std::vector<int> valence = inner_valences(mesh, opposite_halfedges(mesh));
+    for (std::size_t v = 0; v < valence.size(); ++v)
+        if (valence[v] > 0 && valence[v] != 4) result.push_back({static_cast<int>(v), valence[v]});
+    return result;
 }
 
 QuadAlignment measure_alignment(const QuadMesh& mesh, const FeatureCurveNetwork& network,

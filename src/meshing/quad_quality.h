@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "meshing/quad_mesh.h"
 #include "network/network.h"
 
@@ -21,6 +23,13 @@ struct QuadQuality {
 
 /// For meshes whose check_topology has no fault. `edge_length` h > 0, or 0: not known.
 QuadQuality measure_quads(const QuadMesh& mesh, double edge_length = 0);
+
+/// Inner vertices with other than four quads, ascending.
+struct IrregularVertex {
+    int vertex = -1;
+    int valence = 0;  ///< quads around it; the index in quarters is 4 - valence
+};
+std::vector<IrregularVertex> irregular_vertices(const QuadMesh& mesh);
 
 /// Angles between a network's curves and the nearest of the two directions of the quads under
 /// them, degrees, over the length of the curves: a quad's directions at a point are those of its

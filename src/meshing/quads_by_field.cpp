@@ -15,6 +15,7 @@
 #include "geometry/errors.h"
 #include "meshing/baselines.h"
 #include "meshing/quad_curves.h"
+#include "meshing/quad_field.h"
 #include "meshing/quad_holes.h"
 #include "meshing/quad_map.h"
 #include "meshing/quad_smoothing.h"
@@ -110,6 +111,7 @@ public:
         label_faces(extraction.mesh);
         attempt.step.clear();
         quads.curve_deviation_degrees = field.curve_deviation_degrees;
+        quads.field = quad_field(domain, field);
         return std::move(extraction.mesh);
     }
 

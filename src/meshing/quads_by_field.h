@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct QuadSteps {
 struct FieldQuads {
     QuadMesh mesh;  ///< empty if no attempt succeeded
     std::vector<QuadAttempt> attempts;
+    std::optional<QuadField> field;      ///< of the attempt that succeeded
     double curve_deviation_degrees = 0;  ///< of the field from the network
     bool is_done() const { return !attempts.empty() && attempts.back().reason.empty(); }
     /// Of the attempts that failed, one line; empty: none.

@@ -21,6 +21,7 @@ QuadResult remesh_quads(const LoadedMesh& mesh, const FeatureCurveNetwork& netwo
     QuadResult result;
     if (quads.is_done()) {
         result.mesh = std::move(quads.mesh);
+        result.field = std::move(quads.field);
         result.tier = QuadTier::Field;
         result.edge_length = quads.attempts.back().edge_length;
         result.inverted_corners = count_inverted_corners(result.mesh);

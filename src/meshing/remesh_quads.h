@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,12 +44,26 @@ struct QuadAttempt {
     double domain = 0, field = 0, map = 0, extraction = 0, smoothing = 0;
 };
 
+/// The cross field along which quads were made, and the triangles that carried it.
+struct QuadField {
+    /// The surface with edges of about a third of a quad's, short boundary loops closed; its curves
+    /// are those of the network that the field was guided by.
+    LoadedMesh mesh;
+    std::vector<Vec3> arms;  ///< per face: one of the four unit vectors, in the face's plane
+    struct Singularity {
+        int vertex = -1;  ///< of the mesh, inside
+        int index = 0;    ///< in quarters: 1 has three quads around it, -1 five
+    };
+    std::vector<Singularity> singularities;  ///< ascending vertices
+};
+
 struct QuadResult {
     QuadMesh mesh;
     QuadTier tier = QuadTier::Pairing;
     /// Why the tier is not the one asked for, or the edges are shorter; empty: they are as asked.
     std::string reason;
     std::vector<QuadAttempt> attempts;  ///< at a field
+    std::optional<QuadField> field;     ///< that the quads follow; none by pairing
     double edge_length = 0;             ///< that was aimed at in the end
     int inverted_corners = 0;
     /// Of the network, that are no chains of edges of the mesh; by pairing alone.

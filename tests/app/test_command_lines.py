@@ -93,6 +93,16 @@ class WrongCommandLines(ProgramTest):
         (["remesh", "box.off", "-o", "a.obj", "--scale", "5%", "--tier", "first"], "--tier"),
         (["remesh", "box.off", "-o", "a.obj", "--scale", "5%", "--guidance", "all"], "--guidance"),
         (["remesh", "box.off", "-o", "a.obj"], "--scale"),
+        *((["remesh", "box.off", "-o", "a.obj", "--scale", "5%", "--type", *words], message)
+          for words, message in [
+              (["tri", "--field", "a.rosy"], "--type quad"),
+              (["quad", "--field", "a.rosy", "--tier", "pairing"], "follow no field"),
+              (["quad", "--field", "a.txt"], "no mesh format"),
+              (["quad", "--field", "b.obj"], "no .rosy file"),
+              (["quad", "--field", "a.rosy,b.rosy"], "one .rosy file"),
+              (["quad", "--field", "a.rosy,b.obj,b.off"], "one mesh file"),
+              (["quad", "--field", "a.rosy,a.obj"], "after -o and after --field"),
+              (["quad", "--field", "-"], "standard output")]),
         (["measure", "box.off"], "REFERENCE"),
         (["solve", "p.lab", "--option", "depth"], "NAME=VALUE"),
         (["solve", "p.lab", "--gap", "2"], "gap"),

@@ -1,6 +1,8 @@
 """From a mesh to a checked network, a triangle mesh and a report, as a user would go."""
 
+import gzip
 import json
+import math
 import pathlib
 import re
 import unittest
@@ -24,6 +26,17 @@ def keys_of(value):
         if key not in ("seconds", "statistics"):
             found |= keys_of(inner)
     return found
+
+
+def read_triangles(path):
+    """Points and triangles of an OFF or OBJ file of ours."""
+    lines = [line.split() for line in path.read_text(encoding="utf-8").splitlines()]
+    if path.suffix == ".obj":
+        return ([tuple(map(float, words[1:])) for words in lines if words[0] == "v"],
+                [[int(word) - 1 for word in words[1:]] for words in lines if words[0] == "f"])
+    count = int(lines[1][0])
+    return ([tuple(map(float, words)) for words in lines[2:2 + count]],
+            [list(map(int, words[1:])) for words in lines[2 + count:]])
 
 
 class StepByStep(ProgramTest):
@@ -75,6 +88,33 @@ class StepByStep(ProgramTest):
         result = self.call("compare", "ribs.off", "--scale", "8%", "--ways", "nobody")
         self.assertEqual(result.returncode, BAD_INPUT)
         self.assertIn("nobody", result.stderr)
+
+    def test_compare_makes_every_way_to_quads(self):
+        self.model("box", "--resolution", "0.2")
+        words = ["compare", "box.off", "--method", "sharp", "--scale", "15%", "--type", "quad",
+                 "--spacing", "2%"]
+        rows = {way["way"]: way for way in
+                self.succeed_json(*words, "-o", "ways")["ways"]}
+        self.assertEqual(list(rows), ["own", "own-initial", "own-plain", "curvature-0.5",
+                                      "curvature-0.8", "filtered", "pairing"])
+        for name, way in rows.items():
+            self.assertNotIn("failure", way)
+            self.assertEqual(way["tier"], "pairing" if name == "pairing" else "field")
+            measured = self.succeed_json("measure", f"ways/{name}.obj", "box.off", "--edge-length",
+                                         str(1.2 * 0.15 * math.sqrt(2)))
+            self.assertEqual(measured["quads"], way["quads"])
+            self.assertEqual(measured["topology"]["euler_characteristic"], 2)
+        # On a box all guides say the same, and without its edges it gets round.
+        self.assertEqual(rows["curvature-0.8"]["quads"], rows["own-initial"]["quads"])
+        self.assertLess(rows["own"]["distance"]["hausdorff"], 1e-6)
+        self.assertGreater(rows["filtered"]["distance"]["hausdorff"], 0.01)
+        some = self.succeed_json(*words, "--ways", "filtered-2,filtered-0.5,curvature-3")["ways"]
+        distances = [way["distance"]["hausdorff"] for way in some[:2]]
+        self.assertGreater(distances[0], distances[1])
+        result = self.call(*words, "--ways", "filtered-x")
+        self.assertEqual(result.returncode, BAD_INPUT)
+        self.assertIn("filtered-x", result.stderr)
+        self.assertEqual(self.call(*words, "--ways", "quadrics").returncode, BAD_INPUT)
 
     def test_files_of_curves_alone_need_a_network(self):
         self.model("box", "--resolution", "0.3")
@@ -393,11 +433,54 @@ class Run(ProgramTest):
         self.assertEqual(again["quads"], scale["quads"]["quads"])
         self.assertEqual((self.folder / "again.obj").read_bytes(),
                          (self.folder / path).read_bytes())
+        self.check_field_files(scale)
         pairs = self.succeed_json("remesh", "box.off", "--network",
                                   "out/box/20pct/adapted.fcn.json", "--type", "quad", "--tier",
                                   "pairing", "-o", "pairs.off")
         self.assertEqual(pairs["tier"], "pairing")
         self.assertEqual(pairs["broken_segments"], [])
+
+    def check_field_files(self, scale):
+        """The field of the quads of box.off: one unit vector a face, in its plane, along edges."""
+        self.assertEqual(scale["quads"]["tier"], "field")
+        self.assertEqual(scale["quads"]["attempts"][-1]["reason"], "")
+        told = [file for file in scale["files"] if "field." in file]
+        self.assertEqual(told, ["out/box/20pct/field.rosy", "out/box/20pct/field.obj"])
+        exact = self.succeed_json("remesh", "box.off", "--network",
+                                  "out/box/20pct/adapted.fcn.json", "--type", "quad", "-o",
+                                  "b.obj", "--field", "carried.rosy,carried.off")
+        self.assertEqual(exact["files"], ["b.obj", "carried.rosy", "carried.off"])
+        self.succeed("remesh", "box.off", "--network", "out/box/20pct/adapted.fcn.json", "--type",
+                     "quad", "-o", "c.obj", "--field", "sampled.rosy.gz")
+        self.assertEqual((self.folder / "carried.rosy").read_bytes(),
+                         (self.folder / "out/box/20pct/field.rosy").read_bytes())
+        # Around singularities faces are halved before the field is used.
+        self.assertGreaterEqual(self.check_rosy("carried.rosy", "carried.off"),
+                                exact["attempts"][-1]["triangles"])
+        self.check_rosy("out/box/20pct/field.rosy", "out/box/20pct/field.obj")
+        self.check_rosy("sampled.rosy.gz", "box.off")
+
+    def check_rosy(self, field, mesh):
+        content = (self.folder / field).read_bytes()
+        text = (gzip.decompress(content) if field.endswith(".gz") else content).decode("utf-8")
+        count, symmetry, *rest = text.split()
+        numbers = list(map(float, rest))
+        points, faces = read_triangles(self.folder / mesh)
+        self.assertEqual((int(count), symmetry, len(numbers)), (len(faces), "4", 3 * len(faces)))
+        slanted = 0
+        for k, face in enumerate(faces):
+            arm = numbers[3 * k:3 * k + 3]
+            a, b, c = (points[v] for v in face)
+            u, v = ([x - y for x, y in zip(p, a)] for p in (b, c))
+            normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                      u[0] * v[1] - u[1] * v[0]]
+            size = math.hypot(*normal)
+            self.assertAlmostEqual(math.hypot(*arm), 1, places=9)
+            self.assertLess(abs(sum(x * y for x, y in zip(arm, normal))) / size, 1e-6)
+            # The box lies along the axes, and so do its creases: arms turn away from both nowhere.
+            slanted += max(map(abs, arm)) < math.cos(math.radians(20))
+        self.assertLess(slanted, 0.05 * len(faces))
+        return len(faces)
 
     def test_paper_mode_curve_unit_and_quad_target(self):
         self.model("ribs", "--resolution", "0.05", "--spacing", "0.1")

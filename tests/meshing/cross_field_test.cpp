@@ -355,7 +355,7 @@ TEST(FieldDesign, RefusesBadLengths) {
 TEST(FieldFile, ArmsComeBackFromText) {
     const QuadDomain domain = domain_of(loaded(test::sphere(1, 2)), {}, 0.4);
     const FieldDesign result = design(domain, 0.4);
-    std::istringstream rosy(rosy_text(domain.mesh, result.field));
+    std::istringstream rosy(rosy_text(arm_directions(domain.mesh, result.field)));
     std::size_t faces = 0;
     int symmetry = 0;
     rosy >> faces >> symmetry;

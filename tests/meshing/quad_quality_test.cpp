@@ -46,6 +46,17 @@ TEST(MeasureQuads, CountsWhatIsIrregular) {
     EXPECT_EQ(grid.share_irregular, 0);
 }
 
+TEST(MeasureQuads, NamesWhatIsIrregular) {
+    EXPECT_TRUE(irregular_vertices(test::quad_torus(3, 1, 24, 12)).empty());
+    EXPECT_TRUE(irregular_vertices(test::quad_grid(4, 3)).empty());  // the boundary does not count
+    const std::vector<IrregularVertex> corners = irregular_vertices(test::quad_cube());
+    ASSERT_EQ(corners.size(), 8u);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        EXPECT_EQ(corners[i].vertex, static_cast<int>(i));
+        EXPECT_EQ(corners[i].valence, 3);
+    }
+}
+
 TEST(MeasureQuads, CountsInvertedCorners) {
     QuadMesh mesh = test::quad_grid(2, 2);
     mesh.points[4] = {-0.2, -0.2, 0};

@@ -2,13 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "geometry/errors.h"
+#include "geometry/mesh_curves.h"
+#include "meshing/quad_field.h"
 #include "meshing/quad_smoothing.h"
 #include "sample_maps.h"
 #include "sample_meshes.h"
+#include "sample_networks.h"
 
 namespace fcn {
 namespace {
@@ -81,6 +86,7 @@ void expect_fallback(const QuadSteps& steps, const std::string& step, const std:
     }
     const QuadResult result = remesh_quads(cube, {}, cube_options(), steps);
     EXPECT_EQ(result.tier, QuadTier::Pairing);
+    EXPECT_FALSE(result.field);
     EXPECT_EQ(result.reason, quads.reason());
     EXPECT_EQ(result.inverted_corners, 0);
     const QuadTopology topology = check_topology(result.mesh);
@@ -134,6 +140,7 @@ TEST(QuadsByField, IsTheFirstTier) {
     paired.best_tier = QuadTier::Pairing;
     const QuadResult other = remesh_quads(cube, {}, paired, cube_steps(3));
     EXPECT_EQ(other.tier, QuadTier::Pairing);
+    EXPECT_FALSE(other.field);
     EXPECT_EQ(other.reason, "");
 }
 
@@ -154,6 +161,68 @@ TEST(QuadsByField, WorksWithItsOwnSteps) {
         EXPECT_EQ(result.mesh.points, again.mesh.points);
         EXPECT_EQ(result.mesh.faces, again.mesh.faces);
     }
+}
+
+/// The largest angle in degrees between a direction and the nearest axis.
+double degrees_off_axes(const Vec3& direction) {
+    return std::acos(std::min(1.0, direction.cwiseAbs().maxCoeff())) * 180 / std::numbers::pi;
+}
+
+TEST(QuadsByField, KeepsTheFieldThatTheQuadsFollow) {
+    QuadOptions options;
+    options.edge_length = 0.25;
+    const LoadedMesh cube = test::cube(8);
+    const FeatureCurveNetwork network = test::crease_network(cube.mesh, 0.5);
+    const QuadResult result = remesh_quads(cube, network, options);
+    ASSERT_TRUE(result.field);
+    const QuadField& field = *result.field;
+    ASSERT_EQ(field.arms.size(), field.mesh.mesh.n_faces());
+    int sum = 0;
+    for (const QuadField::Singularity& singularity : field.singularities) {
+        sum += singularity.index;
+        EXPECT_TRUE(field.mesh.mesh.is_valid_handle(VertexHandle(singularity.vertex)));
+    }
+    EXPECT_EQ(sum, 8);
+    double length = 0;
+    for_each_curve_edge(field.mesh, [&](std::size_t, int from, int to) {
+        length +=
+            (field.mesh.mesh.point(VertexHandle(from)) - field.mesh.mesh.point(VertexHandle(to)))
+                .norm();
+    });
+    EXPECT_NEAR(length, 12, 1e-9);
+    // On both meshes arms are unit vectors in the faces' planes, and run along the cube's edges.
+    for (const Mesh* mesh : {&field.mesh.mesh, &cube.mesh}) {
+        const std::vector<Vec3> arms =
+            mesh == &cube.mesh ? arms_on_faces(field, *mesh) : field.arms;
+        ASSERT_EQ(arms.size(), mesh->n_faces());
+        for (const FaceHandle face : mesh->faces()) {
+            const Vec3& arm = arms[static_cast<std::size_t>(face.idx())];
+            EXPECT_NEAR(arm.norm(), 1, 1e-9);
+            EXPECT_NEAR(arm.dot(face_normal(*mesh, face)), 0, 1e-9);
+            EXPECT_LT(degrees_off_axes(arm), 15);
+        }
+    }
+}
+
+TEST(QuadsByField, ArmsTurnWithTheFaceTheyAreSeenFrom) {
+    // One face on the floor, its arm along x; seen from a wall that it shares an edge with.
+    QuadField field;
+    const auto corner = [](Mesh& mesh, double x, double y, double z) {
+        return mesh.add_vertex(Vec3(x, y, z));
+    };
+    Mesh& floor = field.mesh.mesh;
+    const VertexHandle a = corner(floor, 0, 0, 0), b = corner(floor, 1, 0, 0),
+                       c = corner(floor, 0, 1, 0);
+    floor.add_face(a, b, c);
+    const double angle = 0.3;
+    field.arms = {Vec3(std::cos(angle), std::sin(angle), 0)};
+    Mesh wall;
+    const VertexHandle d = corner(wall, 0, 0, 0), e = corner(wall, 1, 0, 0),
+                       f = corner(wall, 0, 0, 1);
+    wall.add_face(d, e, f);
+    const std::vector<Vec3> arms = arms_on_faces(field, wall);
+    ASSERT_EQ(arms.size(), 1u);
+    EXPECT_LT((arms[0] - Vec3(std::cos(angle), 0, std::sin(angle))).norm(), 1e-12);
 }
 
 TEST(QuadsByField, RefusesABadLength) {
