@@ -9,7 +9,7 @@ namespace fcn {
 namespace {
 
 constexpr int kChordSamples = 12;
-constexpr double kThin = 2, kMedium = 2.4, kThick = 3;  ///< pixels
+constexpr double kThin = 2, kMedium = 2.4, kThick = 3, kDot = 6;  ///< pixels
 
 /// Arcs of a network as layers: free ones, and pinned ones on top.
 std::vector<PictureLayer> arc_layers(const FeatureCurveNetwork& network, double width) {
@@ -129,6 +129,14 @@ std::string ReportPictures::quads(const ScaleRecord& scale) const {
          segment_layers(scale.adaptation.network, SurfaceQueries(mesh), kMedium))
         layers.push_back(std::move(layer));
     layers.resize(3);  // the mesh shows the nodes
+    const ReportPalette palette;
+    PictureLayer fewer{{}, palette.fewer_quads, kDot}, more{{}, palette.more_quads, kDot};
+    for (const IrregularVertex& irregular : irregular_vertices(scale.quads->result.mesh))
+        (irregular.valence < 4 ? fewer : more)
+            .polylines.push_back(
+                {scale.quads->result.mesh.points[static_cast<std::size_t>(irregular.vertex)]});
+    layers.push_back(std::move(fewer));
+    layers.push_back(std::move(more));
     return render_png(mesh, layers, options());
 }
 

@@ -17,8 +17,10 @@ struct ReportPalette {
     Color kept{0, 100, 176};
     Color dropped{213, 94, 0};
     Color pinned{0, 130, 95};
-    Color brief{204, 121, 167};   ///< short arcs, while a network is adapted
-    Color single{150, 156, 164};  ///< arcs without symmetric partners
+    Color brief{204, 121, 167};      ///< short arcs, while a network is adapted
+    Color fewer_quads{200, 30, 60};  ///< irregular vertices, index above 0
+    Color more_quads{40, 60, 200};   ///< index below 0
+    Color single{150, 156, 164};     ///< arcs without symmetric partners
     std::array<Color, 8> orbits{Color{176, 24, 44},  Color{38, 70, 122},  Color{232, 128, 8},
                                 Color{22, 130, 72},  Color{128, 62, 150}, Color{0, 140, 160},
                                 Color{150, 100, 40}, Color{214, 60, 140}};
@@ -42,7 +44,8 @@ public:
     std::string adapted(const ScaleRecord& scale) const;
     /// The remeshed surface with its edges and the adapted network.
     std::string remesh(const ScaleRecord& scale) const;
-    /// The quads of this scale, which has some, with their edges and the adapted network.
+    /// The quads of this scale, which has some, with their edges, the adapted network, and a dot on
+    /// each irregular vertex.
     std::string quads(const ScaleRecord& scale) const;
 
 private:

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "report/quad_words.h"
 #include "report/report_tables.h"
 
 namespace fcn {
@@ -190,14 +191,17 @@ private:
                              plural(scale.quads->quality.faces, "quad", "quads") +
                              " on the adapted network.",
                          "Quads on the adapted network.",
-                         {{palette.kept, "kept"}, {palette.pinned, "pinned"}});
+                         {{palette.kept, "kept"},
+                          {palette.pinned, "pinned"},
+                          {palette.fewer_quads, "fewer than four quads around it"},
+                          {palette.more_quads, "more than four"}});
         html_.close();
     }
 
     void write_quads(const QuadRecord& quads) {
         write_table(html_, quad_table(quads, bounding_box(record_.mesh.mesh).diagonal()));
-        if (!quads.result.reason.empty())
-            html_.element("p", "Quads: " + quads.result.reason, {{"class", "facts"}});
+        html_.element("p", tier_words(quads.result), {{"class", "facts"}});
+        if (!quads.result.reason.empty()) write_table(html_, attempt_table(quads.result.attempts));
     }
 
     void write_dropped(const FeatureCurveNetwork& network) {

@@ -50,6 +50,7 @@ std::vector<std::size_t> viewer_face_counts(const MeshRecord& record) {
     std::vector<std::size_t> counts{record.mesh.mesh.n_faces()};
     for (const ScaleRecord& scale : record.scales) {
         if (scale.has_remesh) counts.push_back(scale.remesh.mesh.n_faces());
+        if (scale.quads) counts.push_back(2 * scale.quads->result.mesh.faces.size());
         for (const ComparedMesh& compared : scale.compared)
             counts.push_back(compared.row.mesh.mesh.n_faces());
     }

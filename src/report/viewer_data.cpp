@@ -9,6 +9,8 @@
 
 #include "report/camera.h"
 #include "report/drawn_curves.h"
+#include "report/field_crosses.h"
+#include "report/quad_words.h"
 #include "report/viewer_mesh.h"
 
 namespace fcn {
@@ -18,6 +20,8 @@ using Json = nlohmann::json;
 
 constexpr double kTolerance = 1e-4;  ///< of drawn curves, in diagonals
 constexpr int kChordPieces = 8;
+constexpr std::size_t kMostCrosses = 4000;
+constexpr double kCrossSpacing = 0.8;  ///< in edge lengths of the quads
 
 /// The box of the input, a little larger: remeshes may leave it.
 BoundingBox roomy_box(const Mesh& mesh) {
@@ -137,7 +141,10 @@ std::string ViewerData::model() const {
         {"meshes", {add_mesh(block, record_.mesh.mesh, "Input", grid_, face_limit_, nullptr)}},
         {"initial",
          {{"lines", lines(block, arcs, grid_)}, {"pinned", pinned}, {"curve", curve_of_arc_}}},
-        {"curve_length", curve_length}};
+        {"curve_length", curve_length},
+        {"has_quads", std::ranges::any_of(record_.scales, [](const ScaleRecord& scale) {
+             return scale.quads.has_value();
+         })}};
     return block.finish(header);
 }
 
@@ -201,11 +208,32 @@ Json ViewerData::dropped_lines(BlockWriter& block, const FeatureCurveNetwork& ne
             {"blockers", blockers}};
 }
 
+void ViewerData::add_quad_layers(BlockWriter& block, const QuadRecord& quads, Json& header) const {
+    header["quads"] = {{"tier", quads.result.tier == QuadTier::Field ? "field" : "pairing"},
+                       {"words", tier_words(quads.result)}};
+    std::vector<Vec3> points;
+    Json valence = Json::array();
+    for (const IrregularVertex& irregular : irregular_vertices(quads.result.mesh)) {
+        points.push_back(quads.result.mesh.points[static_cast<std::size_t>(irregular.vertex)]);
+        valence.push_back(irregular.valence);
+    }
+    header["singularities"] = {{"points", block.add_points(points, grid_)}, {"valence", valence}};
+    if (quads.result.field)
+        header["field"] = {
+            {"lines", lines(block,
+                            field_crosses(*quads.result.field,
+                                          kCrossSpacing * quads.result.edge_length, kMostCrosses),
+                            grid_)}};
+}
+
 std::string ViewerData::level(const ScaleRecord& scale) const {
     BlockWriter block;
     const AdaptationReport& report = scale.adaptation.report;
     const FeatureCurveNetwork& network = scale.adaptation.network;
     Json meshes = Json::array();
+    if (scale.quads)
+        meshes.push_back(add_quads(block, scale.quads->result.mesh, "Quads on the adapted network",
+                                   grid_, face_limit_, scale.quads->quality));
     if (scale.has_remesh)
         meshes.push_back(add_mesh(block, scale.remesh.mesh, "Remesh on the adapted network", grid_,
                                   face_limit_, &scale.remesh_quality));
@@ -223,18 +251,20 @@ std::string ViewerData::level(const ScaleRecord& scale) const {
         }
     Json curve_kept = Json::array();
     for (const double length : kept) curve_kept.push_back(short_number(length));
-    return block.finish({{"kind", "level"},
-                         {"label", scale.label},
-                         {"rmin", short_number(scale.rmin)},
-                         {"edge_length", short_number(kEdgeLengthFactor * scale.rmin)},
-                         {"coverage", short_number(report.coverage)},
-                         {"violations", scale.conformity.counted},
-                         {"status", to_string(report.status)},
-                         {"meshes", meshes},
-                         {"adapted", adapted_lines(block, network)},
-                         {"dropped", dropped_lines(block, network)},
-                         {"conflicts", conflict_lines(block, report, grid_)},
-                         {"curve_kept", curve_kept}});
+    Json header{{"kind", "level"},
+                {"label", scale.label},
+                {"rmin", short_number(scale.rmin)},
+                {"edge_length", short_number(kEdgeLengthFactor * scale.rmin)},
+                {"coverage", short_number(report.coverage)},
+                {"violations", scale.conformity.counted},
+                {"status", to_string(report.status)},
+                {"meshes", meshes},
+                {"adapted", adapted_lines(block, network)},
+                {"dropped", dropped_lines(block, network)},
+                {"conflicts", conflict_lines(block, report, grid_)},
+                {"curve_kept", curve_kept}};
+    if (scale.quads) add_quad_layers(block, *scale.quads, header);
+    return block.finish(header);
 }
 
 std::size_t fair_face_limit(std::vector<std::size_t> face_counts, std::size_t budget) {

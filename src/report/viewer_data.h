@@ -22,6 +22,7 @@ public:
 private:
     nlohmann::json adapted_lines(BlockWriter& block, const FeatureCurveNetwork& network) const;
     nlohmann::json dropped_lines(BlockWriter& block, const FeatureCurveNetwork& network) const;
+    void add_quad_layers(BlockWriter& block, const QuadRecord& quads, nlohmann::json& header) const;
 
     const MeshRecord& record_;
     std::size_t face_limit_ = 0;

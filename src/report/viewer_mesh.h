@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "meshing/measure.h"
+#include "meshing/quad_mesh.h"
+#include "meshing/quad_quality.h"
 #include "report/viewer_block.h"
 
 namespace fcn {
@@ -13,5 +15,10 @@ namespace fcn {
 nlohmann::json add_mesh(BlockWriter& block, const Mesh& mesh, const std::string& name,
                         const PointGrid& grid, std::size_t face_limit,
                         const TriangleQuality* quality);
+
+/// The same for quads: four corners a face, "sides" 4; the better diagonal joins the first and the
+/// third. With more than half of `face_limit` faces they are shown as decimated triangles.
+nlohmann::json add_quads(BlockWriter& block, const QuadMesh& mesh, const std::string& name,
+                         const PointGrid& grid, std::size_t face_limit, const QuadQuality& quality);
 
 }  // namespace fcn

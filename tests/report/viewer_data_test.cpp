@@ -13,7 +13,9 @@
 #include "geometry/file_content.h"
 #include "geometry/models.h"
 #include "report/drawn_curves.h"
+#include "report/field_crosses.h"
 #include "report/html.h"
+#include "report/quad_words.h"
 #include "report/report_viewer.h"
 #include "report/viewer_decimation.h"
 #include "report/viewer_mesh.h"
@@ -280,6 +282,171 @@ TEST(ViewerData, LevelsSayWhatBecameOfEachCurve) {
     EXPECT_EQ(level.header["meshes"][1]["name"], "another");
     const auto sizes = level.numbers(dropped["lines"]["sizes"][0], 1);
     EXPECT_EQ(sizes, std::vector<std::int64_t>{2});  // the middle point lies on the straight line
+}
+
+/// A cube of 3 x 3 quads a side with a field along its edges on the quads cut in two.
+QuadRecord cube_quads(QuadTier tier) {
+    QuadRecord record;
+    QuadMesh& mesh = record.result.mesh;
+    std::map<std::array<int, 3>, int> numbers;
+    const auto vertex = [&](const std::array<int, 3>& p) {
+        const auto [at, is_new] = numbers.emplace(p, static_cast<int>(mesh.points.size()));
+        if (is_new) mesh.points.emplace_back(p[0], p[1], p[2]);
+        return at->second;
+    };
+    constexpr int kSide = 3;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const int level : {0, kSide})
+            for (int i = 0; i < kSide; ++i)
+                for (int j = 0; j < kSide; ++j) {
+                    std::array<int, 4> face{};
+                    const std::array<std::array<int, 2>, 4> corners{
+                        {{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}};
+                    for (std::size_t k = 0; k < 4; ++k) {
+                        std::array<int, 3> p{};
+                        p[axis] = level;
+                        p[(axis + 1) % 3] = corners[k][0];
+                        p[(axis + 2) % 3] = corners[k][1];
+                        face[level == 0 ? 3 - k : k] = vertex(p);
+                    }
+                    mesh.faces.push_back(face);
+                }
+    // Off the plane of two of its quads, so that diagonals differ.
+    mesh.points[static_cast<std::size_t>(numbers.at({1, 1, kSide}))] += Vec3(0.3, 0.1, 0.2);
+    EXPECT_EQ(check_topology(mesh).fault, "");
+    record.quality = measure_quads(mesh, 1);
+    record.result.tier = tier;
+    record.result.edge_length = 1;
+    if (tier == QuadTier::Pairing) {
+        record.result.attempts = {{1.5, 100, 8, "map", "it folds"}, {1.2, 0, 0, "domain", "torn"}};
+        return record;
+    }
+    QuadField& field = record.result.field.emplace();
+    field.mesh.mesh = triangle_mesh(mesh);
+    for (const FaceHandle face : field.mesh.mesh.faces()) {
+        const Vec3 normal = face_normal(field.mesh.mesh, face);
+        field.arms.push_back(normal.cross(Vec3(0.2, 0.3, 0.5)).normalized());
+    }
+    return record;
+}
+
+TEST(ViewerData, QuadsComeBackWithTheirIrregularVertices) {
+    MeshRecord record = record_of(triangle_mesh(cube_quads(QuadTier::Field).result.mesh));
+    record.scales.emplace_back();
+    record.scales[0].quads = cube_quads(QuadTier::Field);
+    const QuadMesh& quads = record.scales[0].quads->result.mesh;
+    const ViewerData data(record, 1000);
+    const Block model(data.model()), level(data.level(record.scales[0]));
+    const Json& grid = model.header["grid"];
+    const double step = grid["step"].get<double>();
+    EXPECT_EQ(model.header["has_quads"], true);
+    const Json& entry = level.header["meshes"][0];
+    EXPECT_EQ(entry["sides"], 4);
+    EXPECT_EQ(entry["faces"], 54);
+    EXPECT_EQ(entry["shown"], 54);
+    EXPECT_NEAR(entry["quality"]["min_scaled_jacobian"].get<double>(),
+                record.scales[0].quads->quality.min_scaled_jacobian, 1e-4);
+    // Every quad is there once, turned but not turned over, its better cut first.
+    const std::vector<Vec3> points = level.points(entry["points"], grid);
+    EXPECT_EQ(points.size(), quads.points.size());
+    const auto codes = level.numbers(entry["corners"][0], entry["corners"][1]);
+    ASSERT_EQ(codes.size(), 4 * quads.faces.size());
+    std::int64_t next = 0;
+    std::vector<int> found(quads.faces.size(), 0);
+    const std::vector<std::array<int, 3>> cut = cut_into_triangles(quads);
+    for (std::size_t f = 0; f < quads.faces.size(); ++f) {
+        std::array<Vec3, 4> corners;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::int64_t code = codes[4 * f + k];
+            corners[k] = points.at(static_cast<std::size_t>(code == 0 ? next++ : next - code));
+        }
+        for (std::size_t g = 0; g < quads.faces.size(); ++g) {
+            const auto first = std::ranges::find(quads.faces[g], cut[2 * g][0]);
+            double error = 0;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const auto at = (static_cast<std::size_t>(first - quads.faces[g].begin()) + k) % 4;
+                const Vec3& p = quads.points[static_cast<std::size_t>(quads.faces[g][at])];
+                error = std::max(error, (p - corners[k]).cwiseAbs().maxCoeff());
+            }
+            found[g] += error <= 0.5001 * step;
+        }
+    }
+    EXPECT_EQ(found, std::vector<int>(quads.faces.size(), 1));
+    const Json& singular = level.header["singularities"];
+    EXPECT_EQ(singular["valence"], Json(std::vector<int>(8, 3)));
+    for (const Vec3& p : level.points(singular["points"], grid))
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(std::abs(p[axis] - 1.5), 1.5, 0.5001 * step);
+    // Two lines a cross, as long as each other, at right angles, through the same point.
+    const Json& lines = level.header["field"]["lines"];
+    const std::size_t count = lines["sizes"][1];
+    const std::vector<Vec3> ends = level.points(lines["points"], grid);
+    ASSERT_EQ(ends.size(), 2 * count);
+    ASSERT_GT(count, 20U);
+    ASSERT_EQ(count % 2, 0U);
+    for (std::size_t i = 0; i < ends.size(); i += 4) {
+        const Vec3 along = ends[i + 1] - ends[i], across = ends[i + 3] - ends[i + 2];
+        EXPECT_NEAR(along.norm(), across.norm(), 4 * step);
+        EXPECT_NEAR(along.dot(across), 0, 4 * step);
+        EXPECT_LT((ends[i] + ends[i + 1] - ends[i + 2] - ends[i + 3]).norm(), 4 * step);
+        EXPECT_GT(along.norm(), 0.4);
+    }
+    EXPECT_EQ(level.header["quads"]["tier"], "field");
+}
+
+TEST(ViewerData, ManyQuadsAreShownAsFewTriangles) {
+    MeshRecord record = record_of(small_sphere());
+    ScaleRecord scale;
+    scale.quads = cube_quads(QuadTier::Field);
+    const Block level(ViewerData(record, 40).level(scale));
+    const Json& entry = level.header["meshes"][0];
+    EXPECT_FALSE(entry.contains("sides"));
+    EXPECT_EQ(entry["faces"], 54);
+    EXPECT_LE(entry["shown"].get<int>(), 40);
+    EXPECT_TRUE(entry["quality"].contains("mean_scaled_jacobian"));
+}
+
+TEST(ViewerData, QuadsWithoutAFieldSayWhy) {
+    const MeshRecord record = record_of(small_sphere());
+    ScaleRecord scale;
+    scale.quads = cube_quads(QuadTier::Pairing);
+    const Block level(ViewerData(record, 1000).level(scale));
+    EXPECT_FALSE(level.header.contains("field"));
+    EXPECT_EQ(level.header["quads"]["tier"], "pairing");
+    const std::string words = level.header["quads"]["words"];
+    for (const char* part : {"By pairing", "1.5", "no map to the plane", "1.2", "no triangles"})
+        EXPECT_NE(words.find(part), std::string::npos) << part << " in " << words;
+    scale.quads->result.attempts.clear();
+    EXPECT_NE(tier_words(scale.quads->result).find("as asked for"), std::string::npos);
+    scale.quads->result.tier = QuadTier::Field;
+    scale.quads->result.attempts = {{1.1, 100, 8, "smoothing", "2 inverted corners"},
+                                    {1, 90, 8, "", ""}};
+    const std::string shorter = tier_words(scale.quads->result);
+    EXPECT_NE(shorter.find("edge length 1, shorter than asked for: edge length 1.1"),
+              std::string::npos)
+        << shorter;
+}
+
+TEST(FieldCrosses, AreApartAndFew) {
+    const QuadField field = *cube_quads(QuadTier::Field).result.field;
+    for (const double spacing : {0.4, 1.0, 2.5}) {
+        const std::vector<Polyline> crosses = field_crosses(field, spacing, 1000);
+        ASSERT_GT(crosses.size(), 5U);
+        const auto middle = [&](std::size_t i) {
+            return Vec3((crosses[2 * i][0] + crosses[2 * i][1]) / 2);
+        };
+        const auto normal = [&](std::size_t i) {
+            return (crosses[2 * i][1] - crosses[2 * i][0])
+                .cross(crosses[2 * i + 1][1] - crosses[2 * i + 1][0]);
+        };
+        for (std::size_t i = 0; i < crosses.size() / 2; ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                if (normal(i).dot(normal(j)) <= 1e-9) continue;
+                EXPECT_GE((middle(i) - middle(j)).norm(), spacing);
+            }
+    }
+    EXPECT_LE(field_crosses(field, 0.01, 10).size(), 20U);
+    EXPECT_TRUE(field_crosses(field, 0, 10).empty());
 }
 
 TEST(ViewerData, SameRecordGivesSameBytes) {

@@ -1,17 +1,30 @@
 // The controls around a view: scale slider, layers, buttons, panes' names, what was chosen.
 import { CurveTable } from "./curve_table.js";
 import { element } from "./elements.js";
-import { angleClasses, palette } from "./palette.js";
+import { angleClasses, jacobianClasses, palette } from "./palette.js";
 
-export const layers = [
+const layers = [
   { name: "surface", text: "Surface", isOn: true },
   { name: "edges", text: "Mesh edges", isOn: true },
-  { name: "quality", text: "Colour by angle", isOn: false },
+  { name: "quality", text: "Colour by quality", isOn: false },
   { name: "initial", text: "Initial network", isOn: false, color: palette.initial },
   { name: "adapted", text: "Adapted network", isOn: true, color: palette.adapted },
   { name: "dropped", text: "Dropped pieces", isOn: true, color: palette.dropped },
   { name: "conflicts", text: "Conflicts", isOn: false, color: palette.conflicts },
 ];
+
+// Of models of which quads were made.
+const quadLayers = [
+  { name: "field", text: "Cross field", isOn: false, color: palette.field },
+  {
+    name: "singularities", text: "Irregular vertices", isOn: true,
+    color: `linear-gradient(90deg, ${palette.fewerQuads} 50%, ${palette.moreQuads} 50%)`,
+  },
+];
+
+export function layersOf(model) {
+  return model.has_quads ? [...layers, ...quadLayers] : layers;
+}
 
 const helpRows = [
   ["Turn", "drag, one finger, arrow keys"],
@@ -20,15 +33,16 @@ const helpRows = [
   ["Roll", "comma and full stop"],
   ["Home view", "0"],
   ["Scale", "[ and ]"],
-  ["Layers", "1 to 7"],
+  ["Layers", "1 to 7 (9 with quads)"],
   ["Compare", "C"],
   ["Save picture", "S"],
   ["Ask", "point, click or tap on a curve; Escape lets go"],
 ];
 
 export class Controls {
-  constructor(root, id, name, count, on) {
+  constructor(root, id, name, layers, count, on) {
     this.id = id;
+    this.layers = layers;
     this.on = on;
     this.canvas = element("canvas", {
       tabindex: 0,
@@ -43,6 +57,7 @@ export class Controls {
     });
     this.scale = element("output", { for: `${id}-scale`, class: "v-scale" });
     this.facts = element("p", { class: "v-facts" });
+    this.quads = element("p", { class: "v-facts", hidden: true });
     this.compare = this.button("Compare", "Two meshes side by side", on.compare);
     this.compare.setAttribute("aria-pressed", "false");
     this.panes = [0, 1].map((pane) => this.pane(pane));
@@ -70,6 +85,7 @@ export class Controls {
         this.button("Full screen", "The view alone", this.on.full),
       ),
       this.facts,
+      this.quads,
     );
   }
 
@@ -93,12 +109,12 @@ export class Controls {
   }
 
   side() {
-    this.boxes = layers.map((layer, k) => this.box(layer, k));
+    this.boxes = this.layers.map((layer, k) => this.box(layer, k));
     return element(
       "div",
       { class: "v-side" },
       element("fieldset", {}, element("legend", {}, "Show"), ...this.boxes.map((b) => b.label)),
-      this.legend(),
+      ...this.legends(),
       element("h3", {}, "Chosen"),
       this.chosen,
       this.table.root,
@@ -116,15 +132,30 @@ export class Controls {
     return { name, box, label };
   }
 
-  legend() {
-    this.quality = element(
-      "ul",
-      { class: "v-legend", hidden: true, "aria-label": "Smallest angle of a triangle" },
-      ...angleClasses.map(({ color, name }) =>
-        element("li", {}, element("i", { style: `background:${color}` }), name),
-      ),
-    );
-    return this.quality;
+  // What the colours of quality mean, for triangles and for quads.
+  legends() {
+    const legend = (classes, title) =>
+      element(
+        "div",
+        { class: "v-legend", hidden: true },
+        element("p", { class: "v-hint" }, title),
+        element(
+          "ul",
+          {},
+          ...classes.map(({ color, name }) =>
+            element("li", {}, element("i", { style: `background:${color}` }), name),
+          ),
+        ),
+      );
+    this.angles = legend(angleClasses, "Smallest angle of a triangle");
+    this.jacobians = legend(jacobianClasses, "Scaled Jacobian of a quad");
+    return [this.angles, this.jacobians];
+  }
+
+  // `sides` of the faces that are coloured; none: no legend.
+  setLegends(sides) {
+    this.angles.hidden = !sides.includes(3);
+    this.jacobians.hidden = !sides.includes(4);
   }
 
   help() {
@@ -135,6 +166,12 @@ export class Controls {
       element("summary", {}, "Mouse, touch, keys"),
       element("dl", {}, ...rows.flat()),
     );
+  }
+
+  // Layers that this level has nothing of cannot be switched.
+  setAvailable(name, isAvailable) {
+    const found = this.boxes.find((box) => box.name === name);
+    if (found) found.box.disabled = !isAvailable;
   }
 
   setChosen(description) {

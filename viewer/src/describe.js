@@ -33,10 +33,12 @@ const reasonWords = {
 // {title, facts: [text]} of polyline `line` of a layer; `level` is null for the input.
 export function describe(layer, line, levels, level) {
   if (layer === "initial") return describeInitial(levels, line);
-  return { adapted: describeAdapted, dropped: describeDropped, conflicts: describeConflict }[layer](
-    level,
-    line,
-  );
+  return {
+    adapted: describeAdapted,
+    dropped: describeDropped,
+    conflicts: describeConflict,
+    singularities: describeIrregular,
+  }[layer](level, line);
 }
 
 function curveText(curve) {
@@ -98,11 +100,36 @@ function describeConflict(level, line) {
   };
 }
 
+function describeIrregular(level, k) {
+  const count = level.singularities.valence[k];
+  const sign = count < 4 ? "+" : "−";
+  return {
+    title: `Irregular vertex of index ${sign}${quarters(Math.abs(4 - count))}`,
+    facts: [`${count} quads meet here instead of four`],
+  };
+}
+
+function quarters(count) {
+  return count % 4 === 0 ? String(count / 4) : count % 2 === 0 ? `${count / 2}/2` : `${count}/4`;
+}
+
 // The line under a pane's name.
 export function meshFacts(mesh, isInput) {
-  const shown = mesh.shown < mesh.faces ? ` (${mesh.shown.toLocaleString("en")} shown)` : "";
-  const facts = [`${mesh.faces.toLocaleString("en")} triangles${shown}`];
-  if (mesh.quality && !isInput)
+  const isOfQuads = mesh.quality?.mean_scaled_jacobian !== undefined;
+  const shown =
+    isOfQuads && mesh.sides !== 4
+      ? ` (${mesh.shown.toLocaleString("en")} triangles shown)`
+      : mesh.shown < mesh.faces
+        ? ` (${mesh.shown.toLocaleString("en")} shown)`
+        : "";
+  const facts = [`${mesh.faces.toLocaleString("en")} ${isOfQuads ? "quads" : "triangles"}${shown}`];
+  if (isOfQuads)
+    facts.push(
+      `scaled Jacobian ${mesh.quality.mean_scaled_jacobian.toFixed(3)} on average`,
+      `${mesh.quality.min_scaled_jacobian.toFixed(3)} at least`,
+      `irregular: ${percent(mesh.quality.irregular)}`,
+    );
+  else if (mesh.quality && !isInput)
     facts.push(
       `smallest angle ${mesh.quality.min_angle.toFixed(1)}°`,
       `under 15°: ${percent(mesh.quality.under_15, 2)}`,

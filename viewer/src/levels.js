@@ -35,6 +35,13 @@ export class Levels {
     const level = { ...header };
     for (const layer of ["adapted", "dropped", "conflicts"])
       level[layer] = { ...header[layer], lines: readLines(arrays, header[layer].lines, this.grid) };
+    if (header.field)
+      level.field = { lines: readLines(arrays, header.field.lines, this.grid) };
+    if (header.singularities)
+      level.singularities = {
+        ...header.singularities,
+        points: readPoints(arrays, header.singularities.points, this.grid),
+      };
     level.meshes = header.meshes.map((mesh) => readMesh(mesh, arrays, this.grid));
     return level;
   }

@@ -3,6 +3,7 @@
 // allow few; each copies the picture into a canvas of its own.
 import { Color, MeshBasicMaterial, Scene, WebGLRenderer, WebGLRenderTarget } from "three";
 import { makeCurves, makeHighlight, makePickableCurves } from "./curves.js";
+import { makeDots, makePickableDots, setRatio } from "./dots.js";
 import { palette } from "./palette.js";
 import { makeSurface } from "./surface.js";
 
@@ -22,7 +23,8 @@ export function sharedRenderer() {
 
 // Layers in the order of their numbers for picking.
 export const layerNames = ["initial", "adapted", "dropped", "conflicts"];
-const widths = { initial: 2, adapted: 3.2, dropped: 4, conflicts: 1.6 };
+// Nothing is asked of the field, so it cannot be picked.
+const widths = { initial: 2, adapted: 3.2, dropped: 4, conflicts: 1.6, field: 1.8 };
 
 export class Stage {
   constructor(levels) {
@@ -35,7 +37,7 @@ export class Stage {
     this.layers = new Map();
     this.highlight = null;
     this.level = undefined;
-    this.inputSurface = makeSurface(levels.input.points, levels.input.corners);
+    this.inputSurface = makeSurface(levels.input);
   }
 
   show(level) {
@@ -43,7 +45,7 @@ export class Stage {
     this.level = level;
     this.surfaces.set(this.levels.input.name, this.inputSurface);
     for (const mesh of level?.meshes ?? [])
-      this.surfaces.set(mesh.name, makeSurface(mesh.points, mesh.corners));
+      this.surfaces.set(mesh.name, makeSurface(mesh));
     for (const surface of this.surfaces.values()) {
       surface.visible = false;
       this.scene.add(surface);
@@ -52,19 +54,28 @@ export class Stage {
     for (const name of layerNames) {
       const data = this.data(name);
       if (!data) continue;
+      const count = data.lines.count;
       const colorOf = (line) => (data.pinned?.[line] ? palette.pinned : palette[name]);
-      const layer = {
-        name,
-        first,
-        data,
-        curves: makeCurves(data.lines, widths[name], colorOf),
-        pickable: makePickableCurves(data.lines, widths[name], first),
-      };
-      first += data.lines.count;
-      this.layers.set(name, layer);
-      this.scene.add(layer.curves);
-      this.pickScene.add(layer.pickable);
+      const curves = makeCurves(data.lines, widths[name], colorOf);
+      this.add({ name, data, first, count, curves },
+               makePickableCurves(data.lines, widths[name], first));
+      first += count;
     }
+    const { field, singularities } = level ?? {};
+    if (field) {
+      const curves = makeCurves(field.lines, widths.field, () => palette.field);
+      this.add({ name: "field", data: field, first: 0, count: 0, curves });
+    }
+    if (singularities?.valence.length)
+      this.add({ name: "singularities", data: singularities, first,
+                 count: singularities.valence.length, curves: makeDots(singularities) },
+               makePickableDots(singularities, first));
+  }
+
+  add(layer, pickable = null) {
+    this.layers.set(layer.name, { ...layer, pickable });
+    this.scene.add(layer.curves);
+    if (pickable) this.pickScene.add(pickable);
   }
 
   data(name) {
@@ -77,6 +88,7 @@ export class Stage {
       if (surface !== this.inputSurface) dispose(surface);
     for (const layer of this.layers.values()) {
       dispose(layer.curves);
+      if (!layer.pickable) continue;
       dispose(layer.pickable);
       this.pickScene.remove(layer.pickable);
     }
@@ -94,7 +106,7 @@ export class Stage {
     }
     if (!chosen) return;
     const parts = Object.entries(chosen)
-      .filter(([name]) => this.layers.has(name))
+      .filter(([name]) => this.layers.get(name)?.data.lines)
       .map(([name, isChosen]) => ({ lines: this.layers.get(name).data.lines, isChosen }));
     this.highlight = makeHighlight(parts, palette.highlight);
     if (this.highlight) this.scene.add(this.highlight);
@@ -112,12 +124,17 @@ export class Stage {
     const isInput = view.surface === this.levels.input.name;
     const near = 0.004 * orbit.radius;
     const far = isInput ? near : near + 0.25 * (this.level?.rmin ?? 0);
-    const lift = { initial: far, adapted: 1.2 * far, dropped: 1.1 * far, conflicts: 2 * far };
-    for (const [name, layer] of this.layers) {
-      layer.curves.visible = layer.pickable.visible = view.layers[name];
-      layer.curves.material.linewidth = widths[name] * view.lineScale;
-      layer.curves.position.copy(toward).multiplyScalar(lift[name]);
-      layer.pickable.position.copy(layer.curves.position);
+    const lift = {
+      initial: far, adapted: 1.2 * far, dropped: 1.1 * far, conflicts: 2 * far, field: 0.9 * far,
+      singularities: 1.5 * far,
+    };
+    for (const [name, { curves, pickable }] of this.layers) {
+      curves.visible = view.layers[name];
+      if (widths[name]) curves.material.linewidth = widths[name] * view.lineScale;
+      curves.position.copy(toward).multiplyScalar(lift[name]);
+      if (!pickable) continue;
+      pickable.visible = curves.visible;
+      pickable.position.copy(curves.position);
     }
     if (this.highlight) this.highlight.position.copy(toward).multiplyScalar(far);
   }
@@ -129,6 +146,8 @@ export class Stage {
     gl.setSize(width, height, false);
     gl.setClearColor(background);
     gl.setScissorTest(true);
+    const dots = this.layers.get("singularities");
+    if (dots) setRatio(dots.curves, ratio);
     const part = width / views.length;
     views.forEach((view, i) => {
       gl.setViewport(i * part, 0, part, height);
@@ -173,8 +192,8 @@ export class Stage {
 
   lineOf(number) {
     if (number === 0) return null;
-    for (const { name, first, data } of this.layers.values())
-      if (number >= first && number < first + data.lines.count)
+    for (const { name, first, count } of this.layers.values())
+      if (number >= first && number < first + count)
         return { layer: name, line: number - first };
     return null;
   }

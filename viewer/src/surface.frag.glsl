@@ -1,7 +1,7 @@
 precision highp float;
 in vec3 viewNormal;
 in vec3 corner;
-flat in float triangleAngle;
+flat in float faceQuality;
 out vec4 color;
 
 uniform vec3 surfaceColor;
@@ -9,11 +9,12 @@ uniform vec3 classColors[4];
 uniform vec4 classLimits;
 uniform bool showsQuality;
 uniform bool showsEdges;
+uniform bool isOfQuads;
 
 vec3 classColor() {
-    if (triangleAngle < classLimits.x) return classColors[0];
-    if (triangleAngle < classLimits.y) return classColors[1];
-    if (triangleAngle < classLimits.z) return classColors[2];
+    if (faceQuality < classLimits.x) return classColors[0];
+    if (faceQuality < classLimits.y) return classColors[1];
+    if (faceQuality < classLimits.z) return classColors[2];
     return classColors[3];
 }
 
@@ -37,7 +38,9 @@ void main() {
         // edges fade, or the surface would turn black.
         vec3 slope = fwidth(corner);
         vec3 distances = corner / slope;
-        float edge = min(min(distances.x, distances.y), distances.z);
+        // Opposite the first corner lies the cut through a quad, which is no edge.
+        float edge = min(distances.y, distances.z);
+        if (!isOfQuads) edge = min(edge, distances.x);
         float height = 1.0 / max(max(slope.x, slope.y), slope.z);
         float line = 1.0 - smoothstep(0.15, 1.05, edge);
         shaded = mix(shaded, vec3(0.16, 0.20, 0.26), line * smoothstep(2.0, 10.0, height) * 0.75);

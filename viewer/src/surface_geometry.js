@@ -1,11 +1,11 @@
 // Triangles with what shading needs: every triangle has corners of its own, so that a normal may
 // break at a crease, edges can be drawn in the shader and each triangle has one quality.
 import { BufferAttribute, BufferGeometry, Sphere, Vector3 } from "three";
-import { smallestAngles } from "./surface_angles.js";
 
 const creaseCosine = Math.cos((35 * Math.PI) / 180);
 
-export function surfaceGeometry(points, corners) {
+// `qualityOf` gives, from the corners' positions, one number a corner.
+export function surfaceGeometry(points, corners, qualityOf) {
   const geometry = new BufferGeometry();
   const positions = new Float32Array(3 * corners.length);
   for (let i = 0; i < corners.length; ++i)
@@ -16,7 +16,7 @@ export function surfaceGeometry(points, corners) {
     "normal",
     new BufferAttribute(cornerNormals(normals, corners, points.length / 3), 3, true),
   );
-  geometry.setAttribute("angle", new BufferAttribute(smallestAngles(positions), 1));
+  geometry.setAttribute("quality", new BufferAttribute(qualityOf(positions), 1));
   geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
   return geometry;
 }

@@ -1,6 +1,6 @@
 // One view: keeps what is shown (level, layers, surfaces, choice) and brings data, stage and controls
 // together. Draws only when something has changed.
-import { Controls, layers } from "./controls.js";
+import { Controls, layersOf } from "./controls.js";
 import { describe, meshFacts, number, percent } from "./describe.js";
 import { element } from "./elements.js";
 import { listen } from "./gestures.js";
@@ -22,12 +22,13 @@ export class Viewer {
     this.stage = new Stage(levels);
     const { toward, up } = levels.model.camera;
     this.orbit = new OrbitCamera(toward, up, levels.input.points);
-    this.layers = Object.fromEntries(layers.map(({ name, isOn }) => [name, isOn]));
+    this.known = layersOf(levels.model);
+    this.layers = Object.fromEntries(this.known.map(({ name, isOn }) => [name, isOn]));
     this.surfaces = [null, null];
     this.isComparing = false;
     this.choice = null;
     this.isAsking = false;
-    this.controls = new Controls(root, root.id, levels.model.name, levels.count, {
+    this.controls = new Controls(root, root.id, levels.model.name, this.known, levels.count, {
       level: (value) => this.setLevel(value),
       layer: (name, isOn) => this.setLayer(name, isOn),
       surface: (pane, name) => this.setSurface(pane, name),
@@ -60,6 +61,8 @@ export class Viewer {
     this.choose(this.choice?.curve === undefined ? null : { curve: this.choice.curve });
     this.controls.slider.value = value;
     this.writeFacts();
+    for (const { name } of this.known)
+      this.controls.setAvailable(name, !["field", "singularities"].includes(name) || level?.[name]);
     this.controls.table.fill(this.levels, level);
     this.controls.table.mark(this.choice?.curve ?? null);
     this.root.dataset.level = value;
@@ -69,6 +72,8 @@ export class Viewer {
   writeFacts() {
     const { scale, facts, slider } = this.controls;
     const { level } = this;
+    this.controls.quads.hidden = !level?.quads;
+    this.controls.quads.textContent = level?.quads ? `Quads: ${level.quads.words}` : "";
     const units = this.levels.model.units ? ` ${this.levels.model.units}` : "";
     scale.textContent = level ? level.label : "input";
     slider.setAttribute("aria-valuetext", scale.textContent);
@@ -114,6 +119,13 @@ export class Viewer {
       const mesh = this.meshes().find(({ name }) => name === select.value);
       facts.textContent = meshFacts(mesh, mesh === this.levels.input);
     }
+    this.writeLegends();
+  }
+
+  writeLegends() {
+    const shown = this.layers.quality ? this.views().map(({ surface }) => surface) : [];
+    const meshes = this.meshes().filter(({ name }) => shown.includes(name));
+    this.controls.setLegends(meshes.map(({ sides }) => sides ?? 3));
   }
 
   setSurface(pane, name) {
@@ -125,7 +137,7 @@ export class Viewer {
   setLayer(name, isOn) {
     this.layers[name] = isOn;
     this.controls.boxes.find((box) => box.name === name).box.checked = isOn;
-    this.controls.quality.hidden = !this.layers.quality;
+    this.writeLegends();
     this.invalidate();
   }
 
@@ -134,6 +146,7 @@ export class Viewer {
     this.controls.compare.setAttribute("aria-pressed", String(isOn));
     this.controls.panes[1].root.hidden = !isOn;
     this.canvas.dataset.panes = isOn ? 2 : 1;
+    this.writeLegends();
     this.invalidate();
   }
 
@@ -254,7 +267,7 @@ export class Viewer {
   }
 
   key(key) {
-    const layer = layers[Number(key) - 1];
+    const layer = this.known[Number(key) - 1];
     if (layer && /^[1-9]$/.test(key)) this.setLayer(layer.name, !this.layers[layer.name]);
     else if (key === "[") this.setLevel(Math.max(0, this.number - 1));
     else if (key === "]") this.setLevel(Math.min(this.levels.count, this.number + 1));

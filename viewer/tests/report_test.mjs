@@ -41,6 +41,14 @@ function makeReport() {
   return pathToFileURL(path.join(folder, "out/report.html")).href;
 }
 
+// A box has eight irregular vertices where quads follow its edges, one at each corner.
+function makeQuadReport() {
+  run("model", "box", "--resolution", "0.1", "-o", "box.off");
+  run("run", "box.off", "--method", "sharp", "--scales", "6%,12%", "--target", "quad", "--solvers", "none",
+      "--threads", "1", "-o", "quads");
+  return pathToFileURL(path.join(folder, "quads/report.html")).href;
+}
+
 const view = "#mesh-1-viewer";
 const canvas = `${view} canvas`;
 
@@ -285,10 +293,117 @@ const tests = {
   },
 };
 
-// Pixels in the colour of dropped pieces, about `most` of them, in CSS pixels.
-async function orangePlaces(page, most = 40) {
+const quadTests = {
+  "quads are what is shown first, with their measures": async (page) => {
+    await setLevel(page, 2);
+    assert.equal(await page.locator(`${view} select`).first().inputValue(),
+                 "Quads on the adapted network");
+    assert.match(await page.locator(`${view} .v-pane .v-facts`).first().textContent(),
+                 /\d+\squads · scaled\sJacobian\s[01]\.\d+/);
+    assert.match(await page.locator(`${view} .v-bar`).textContent(), /Quads: Along a cross field/);
+  },
+
+  "every layer of quads changes the picture, and back": async (page) => {
+    const before = await picture(page);
+    const boxes = page.locator(`${view} fieldset input`);
+    assert.equal(await boxes.count(), 9);
+    for (const name of ["edges", "quality", "field", "singularities"]) {
+      const box = page.locator(`${view} input[name=${name}]`);
+      await box.click();
+      assert.notEqual(await picture(page), before, name);
+      await box.click();
+      assert.equal(await picture(page), before, name);
+    }
+    await page.locator(canvas).focus();
+    for (const key of ["8", "9"]) {
+      await page.keyboard.press(key);
+      assert.notEqual(await picture(page), before, key);
+      await page.keyboard.press(key);
+      assert.equal(await picture(page), before, key);
+    }
+  },
+
+  "edges are those of quads, without the cuts": async (page) => {
+    // On the same surface n squares have edges of 2 n^(1/2), cut ones 3.4, n pairs of triangles 3.2.
+    for (const name of ["adapted", "dropped", "singularities"])
+      await page.locator(`${view} input[name=${name}]`).uncheck();
+    const select = page.locator(`${view} select`).first();
+    await select.selectOption("Quads on the adapted network");
+    const [first] = await darkShare(page);
+    const perQuad = first.dark / Math.sqrt(first.faces);
+    await select.selectOption("Remesh on the adapted network");
+    const [other] = await darkShare(page);
+    const perTriangle = other.dark / Math.sqrt(other.faces / 2);
+    assert.ok(first.dark > 500 && perQuad < 0.85 * perTriangle, `${perQuad} ${perTriangle}`);
+    await select.selectOption("Quads on the adapted network");
+    for (const name of ["adapted", "dropped", "singularities"])
+      await page.locator(`${view} input[name=${name}]`).check();
+  },
+
+  "irregular vertices are red, and say what they are": async (page) => {
+    await page.locator(`${view} input[name=adapted]`).uncheck();
+    const places = await placesOf(page, [200, 30, 60]);
+    assert.ok(places.length > 0, "no red mark is drawn");
+    const box = await page.locator(canvas).boundingBox();
+    await page.mouse.move(box.x + places[0][0], box.y + places[0][1]);
+    await settled(page);
+    const tip = page.locator(`${view} .v-tip`);
+    assert.match(await tip.textContent(), /Irregular vertex of index \+1\/4.*3 quads/);
+    await page.mouse.click(box.x + places[0][0], box.y + places[0][1]);
+    assert.match(await page.locator(`${view} .v-chosen`).textContent(), /index \+1\/4/);
+    await page.mouse.move(box.x + 3, box.y + 3);
+    await page.keyboard.press("Escape");
+    await page.locator(`${view} input[name=adapted]`).check();
+  },
+
+  "each kind of face has its own legend": async (page) => {
+    const legends = () =>
+      page.$$eval(`${view} .v-legend`, (all) => all.filter((l) => !l.hidden).map((l) => l.textContent));
+    assert.deepEqual(await legends(), []);
+    await page.locator(`${view} input[name=quality]`).check();
+    assert.equal((await legends()).length, 1);
+    assert.match((await legends())[0], /Jacobian/);
+    await page.locator(canvas).focus();
+    await page.keyboard.press("c");
+    assert.equal((await legends()).length, 2);
+    await page.keyboard.press("c");
+    await page.locator(`${view} input[name=quality]`).uncheck();
+  },
+
+  "what a level has not cannot be switched": async (page) => {
+    await setLevel(page, 0);
+    for (const [name, isOff] of [["field", true], ["singularities", true], ["edges", false]])
+      assert.equal(await page.locator(`${view} input[name=${name}]`).isDisabled(), isOff, name);
+    await setLevel(page, 1);
+    assert.equal(await page.locator(`${view} input[name=field]`).isDisabled(), false);
+  },
+};
+
+// What is darker than any shading of the surface, in CSS pixels, and the faces that are shown.
+async function darkShare(page) {
   await settled(page);
-  return page.evaluate(([which, count]) => {
+  return page.evaluate(([which, facts]) => {
+    const whole = document.querySelector(which);
+    const copy = Object.assign(document.createElement("canvas"),
+                               { width: whole.width, height: whole.height });
+    const context = copy.getContext("2d", { willReadFrequently: true });
+    context.drawImage(whole, 0, 0);
+    const { data } = context.getImageData(0, 0, whole.width, whole.height);
+    let dark = 0;
+    for (let i = 0; i < data.length; i += 4) dark += data[i] < 110;
+    const words = document.querySelector(facts).textContent.replaceAll(",", "");
+    return [{ dark, faces: Number.parseInt(words, 10) }];
+  }, [canvas, `${view} .v-pane .v-facts`]);
+}
+
+// Pixels in the colour of dropped pieces, about `most` of them, in CSS pixels.
+function orangePlaces(page, most = 40) {
+  return placesOf(page, [213, 94, 0], most);
+}
+
+async function placesOf(page, color, most = 40) {
+  await settled(page);
+  return page.evaluate(([which, [red, green, blue], count]) => {
     const whole = document.querySelector(which);
     const copy = Object.assign(document.createElement("canvas"),
                                { width: whole.width, height: whole.height });
@@ -298,10 +413,10 @@ async function orangePlaces(page, most = 40) {
     const scale = whole.clientWidth / width;
     const found = [];
     for (let i = 0; i < data.length; i += 4)
-      if (data[i] === 213 && data[i + 1] === 94 && data[i + 2] === 0)
+      if (data[i] === red && data[i + 1] === green && data[i + 2] === blue)
         found.push([((i / 4) % width) * scale, Math.floor(i / 4 / width) * scale]);
     return found.filter((_, i) => i % Math.ceil(found.length / count) === 0);
-  }, [canvas, most]);
+  }, [canvas, color, most]);
 }
 
 async function testPhone(browser, address) {
@@ -355,6 +470,13 @@ const page = await openView(browser, address);
 for (const [name, test] of Object.entries(tests)) await attempt(name, () => test(page));
 await attempt("nothing was complained about, nothing fetched", async () =>
   assert.deepEqual(page.complaints, []));
+const quads = makeQuadReport();
+const quadPage = await openView(browser, quads);
+for (const [name, test] of Object.entries(quadTests)) await attempt(name, () => test(quadPage));
+await attempt("axe finds no serious fault with quads", () =>
+  tests["axe finds no serious fault"](quadPage));
+await attempt("nothing was complained about with quads", async () =>
+  assert.deepEqual(quadPage.complaints, []));
 await attempt("on a phone", () => testPhone(browser, address));
 await attempt("without scripts", async () =>
   expectPicturesOnly(await open(browser, address, { javaScriptEnabled: false }), "needs scripts"));
@@ -362,5 +484,13 @@ await browser.close();
 const plain = await launch(chromium, { hasWebGL: false });
 await attempt("without WebGL", async () =>
   expectPicturesOnly(await open(plain, address), "needs WebGL 2"));
+await attempt("quads without WebGL", async () => {
+  const page = await open(plain, quads);
+  await expectPicturesOnly(page, "needs WebGL 2");
+  const text = await page.locator("#mesh-1").textContent();
+  for (const words of ["Along a cross field, edge length", "Mean scaled Jacobian",
+                       "fewer than four quads around it"])
+    assert.ok(text.includes(words), words);
+});
 await plain.close();
 process.exit(failed === 0 ? 0 : 1);
