@@ -21,7 +21,13 @@ constexpr double kShrink = 0.7;        ///< of the edge length around a fault, a
 constexpr double kLeast = 0.15;        ///< in targets: edges are not asked to be shorter
 constexpr double kSame = 0.99;         ///< in targets: sources of more ask for nothing
 constexpr double kApart = 0.6;         ///< in targets: distance of fixed tips from curves
+constexpr double kFittingScale = 0.6;  ///< in targets: least rmin of a network that fits
 constexpr double kTipTolerance = 0.3;  ///< in targets: distance of a tip's vertex from its sample
+
+/// Whether the network was adapted to about this edge length.
+bool fits(const FeatureCurveNetwork& network, double edge_length) {
+    return network.is_adapted() && network.scale > kFittingScale * edge_length;
+}
 
 class AdaptiveRemesher {
 public:
@@ -33,7 +39,7 @@ public:
           network_(network),
           target_(target),
           options_(options),
-          finder_(input, target.length) {
+          finder_(input, target.length, fits(network, target.length)) {
         if (target_.sources.is_empty()) target_.sources = SizeSources(target.length);
         target_.curve_sources = SizeSources(target.length);
     }

@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "meshing/crossing_guard.h"
+#include "meshing/forced_angles.h"
 #include "meshing/patch.h"
 #include "meshing/triangle_shape.h"
 
@@ -21,6 +22,7 @@ namespace fcn {
 namespace {
 
 constexpr double kLeastGain = 0.02;  ///< share of the bad triangle's own penalty
+constexpr double kNoNormal = 0.02;   ///< of a face's flatness, below which it has none
 constexpr double kLongest = 1.6;     ///< in targets: a collapse makes no longer edge
 constexpr double kGrowth = 1.02;     ///< of a deviation that is larger already
 constexpr std::size_t kMostChecked = 4;
@@ -73,13 +75,19 @@ private:
         return cosine_of_smallest_angle(mesh_.point(a), mesh_.point(b), mesh_.point(c));
     }
 
+    bool has_cut(int face) const {
+        const auto corners = mesh_.corners(face);
+        return std::any_of(corners.begin(), corners.end(), [&](int v) { return mesh_.is_cut(v); });
+    }
+
     /// Worst first.
     std::vector<std::pair<double, int>> bad_faces() const {
         std::vector<std::pair<double, int>> bad;
         for (int f = 0; f < mesh_.face_end(); ++f) {
             if (!mesh_.is_face_alive(f) || mesh_.is_face_resting(f)) continue;
             const double cosine = cosine_of(f);
-            if (cosine > bad_cosine_ && !is_angle_forced(mesh_, f)) bad.emplace_back(-cosine, f);
+            if (cosine > bad_cosine_ && (has_cut(f) || !is_between_curves(mesh_, f)))
+                bad.emplace_back(-cosine, f);
         }
         std::sort(bad.begin(), bad.end());
         return bad;
@@ -181,13 +189,18 @@ private:
                 if (mesh_.is_marked(h)) return false;
                 return split(h);
             case Trial::Kind::Collapse:
-                if (!mesh_.is_free(trial.vanishing) || !keeps_faces(h, trial.vanishing) ||
+                if (!may_vanish(h, trial.vanishing) || !keeps_faces(h, trial.vanishing) ||
                     !mesh_.can_collapse(h, trial.vanishing))
                     return false;
                 mesh_.collapse(h, trial.vanishing);
                 return true;
         }
         return false;
+    }
+
+    /// Cuts may be taken back along their curve.
+    bool may_vanish(int h, int v) const {
+        return mesh_.is_free(v) || (mesh_.is_cut(v) && mesh_.is_marked(h));
     }
 
     bool split(int h) {
@@ -212,11 +225,20 @@ private:
         return keeps;
     }
 
+    /// Whether the faces that a flip would make look where a normal points.
+    bool is_along(const Vec3& normal, const Vec3& d, const Vec3& c, const Vec3& a,
+                  const Vec3& b) const {
+        return triangle_normal(d, c, a).dot(normal) > limits_.flatness &&
+               triangle_normal(c, d, b).dot(normal) > limits_.flatness;
+    }
+
     bool is_flat(int h) const {
         const int t = mesh_.twin(h);
         if (t < 0 || mesh_.is_marked(h)) return false;
         const Vec3 &a = mesh_.point(mesh_.from(h)), &b = mesh_.point(mesh_.to(h));
         const Vec3 &c = mesh_.point(mesh_.apex(h)), &d = mesh_.point(mesh_.apex(t));
+        if (flatness_quality(a, b, c) < kNoNormal)
+            return is_along(triangle_normal(b, a, d), d, c, a, b);
         const Vec3 sum = triangle_normal(a, b, c) + triangle_normal(b, a, d);
         const double least = 0.8 * limits_.flatness * sum.norm();
         return sum.norm() > 1.8 * limits_.flatness && triangle_normal(d, c, a).dot(sum) > least &&
@@ -251,24 +273,12 @@ private:
 
 }  // namespace
 
-bool is_angle_forced(const WorkingMesh& mesh, int face) {
-    // The smallest angle lies across from the shortest side.
-    int shortest = 3 * face;
-    double least = -1;
-    for (int h = 3 * face; h < 3 * face + 3; ++h) {
-        const double square = (mesh.point(mesh.to(h)) - mesh.point(mesh.from(h))).squaredNorm();
-        if (least < 0 || square < least) {
-            least = square;
-            shortest = h;
-        }
-    }
-    return mesh.is_marked(WorkingMesh::next(shortest)) &&
-           mesh.is_marked(WorkingMesh::prev(shortest));
-}
-
 AngleStatistics improve_angles(WorkingMesh& mesh, const ReferenceSurface& reference,
                                const EdgeTarget& target, const AngleOptions& options) {
-    return Improver(mesh, reference, target, options).run();
+    mesh.set_cuts_fixed(false);
+    const AngleStatistics statistics = Improver(mesh, reference, target, options).run();
+    mesh.set_cuts_fixed(true);
+    return statistics;
 }
 
 }  // namespace fcn

@@ -20,8 +20,4 @@ struct AngleStatistics {
 AngleStatistics improve_angles(WorkingMesh& mesh, const ReferenceSurface& reference,
                                const EdgeTarget& target, const AngleOptions& options = {});
 
-/// Whether the smallest angle of a face lies between two marked edges, so that only the curves
-/// could change it.
-bool is_angle_forced(const WorkingMesh& mesh, int face);
-
 }  // namespace fcn

@@ -56,7 +56,7 @@ std::size_t cut_features(WorkingMesh& mesh, const ReferenceSurface& curves,
         if (guard.allows_move(v, there)) mesh.set_point(v, there);
         guard.update_star(v);
         mesh.set_place(v, place);
-        mesh.fix(v);
+        mesh.fix_cut(v);
         ++count;
     }
     mesh.compact();

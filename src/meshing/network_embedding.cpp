@@ -62,7 +62,11 @@ void fix_corners(WorkingMesh& mesh) {
         bool is_corner = marked.size() != 2 || marked[0].first != marked[1].first;
         if (!is_corner && marked[0].first == EdgeRole::Border)
             is_corner = -marked[0].second.dot(marked[1].second) < kCornerCosine;
-        if (is_corner) mesh.fix(v);
+        // Where curves only run together there is no node, and better triangles may undo it.
+        if (is_corner && marked.size() > 2)
+            mesh.fix_cut(v);
+        else if (is_corner)
+            mesh.fix(v);
     }
 }
 

@@ -53,7 +53,8 @@ struct RemeshResult {
     std::vector<FeatureSource> feature_sources;  ///< per feature edge; own remesher only
     /// Segments of the network (arcs if it has none) of which a piece is not a single edge.
     std::vector<int> broken_segments;
-    /// Faces whose smallest angle lies between two protected edges and is under 30 degrees.
+    /// Faces with an angle under 30 degrees between two protected edges, or at the tip of a spike:
+    /// a fixed vertex with less than 90 degrees around it.
     std::vector<int> forced_faces;
     /// Pairs of faces that intersect, away from where the input's do; own remesher only.
     std::size_t new_intersections = 0;

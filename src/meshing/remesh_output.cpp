@@ -17,14 +17,26 @@ bool is_marked(const MarkedMesh& marked, HalfedgeHandle h) {
            EdgeRole::Free;
 }
 
-/// Whether the face's smallest angle is small and lies between two marked edges.
+bool is_spike(const MarkedMesh& marked, VertexHandle vertex) {
+    const Mesh& mesh = marked.mesh;
+    if (!marked.is_fixed_vertex[static_cast<std::size_t>(vertex.idx())] || mesh.is_boundary(vertex))
+        return false;
+    double angles = 0;
+    for (const HalfedgeHandle h : mesh.voh_range(vertex))
+        angles += angle_at(mesh.point(vertex), mesh.point(mesh.to_vertex_handle(h)),
+                           mesh.point(mesh.to_vertex_handle(mesh.next_halfedge_handle(h))));
+    return angles < kSpikeAngle;
+}
+
+/// Whether the face's smallest angle is small and lies between two marked edges or at a spike.
 bool is_forced(const MarkedMesh& marked, FaceHandle face) {
     const Mesh& mesh = marked.mesh;
     HalfedgeHandle shortest = mesh.halfedge_handle(face);
     for (const HalfedgeHandle h : mesh.fh_range(face))
         if (mesh.calc_edge_length(h) < mesh.calc_edge_length(shortest)) shortest = h;
-    if (!is_marked(marked, mesh.next_halfedge_handle(shortest)) ||
-        !is_marked(marked, mesh.prev_halfedge_handle(shortest)))
+    if (!(is_marked(marked, mesh.next_halfedge_handle(shortest)) &&
+          is_marked(marked, mesh.prev_halfedge_handle(shortest))) &&
+        !is_spike(marked, mesh.to_vertex_handle(mesh.next_halfedge_handle(shortest))))
         return false;
     const auto v = face_vertices(mesh, face);
     return cosine_of_smallest_angle(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])) >

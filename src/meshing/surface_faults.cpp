@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "meshing/angle_improvement.h"
+#include "meshing/forced_angles.h"
 #include "meshing/self_intersections.h"
 #include "meshing/triangle_shape.h"
 
@@ -66,8 +66,8 @@ Vec3 face_center(const WorkingMesh& mesh, int face) {
     return (a + b + c) / 3;
 }
 
-FaultFinder::FaultFinder(const Mesh& mesh, double edge_length)
-    : input_(mesh), edge_length_(edge_length) {
+FaultFinder::FaultFinder(const Mesh& mesh, double edge_length, bool has_fitting_features)
+    : input_(mesh), edge_length_(edge_length), has_fitting_features_(has_fitting_features) {
     for (const VertexHandle v : mesh.vertices())
         if (!mesh.is_isolated(v)) samples_.push_back({mesh.point(v), mesh.cvf_iter(v)->idx()});
     for (const EdgeHandle edge : mesh.edges())
@@ -80,6 +80,7 @@ SurfaceFaults FaultFinder::find(const WorkingMesh& mesh, const EdgeTarget& targe
     SurfaceFaults faults = find_among(mesh, target, faces, true);
     // So many come of features that the edge length does not suit, and no repair is the answer.
     faults.has_too_many_needles =
+        !has_fitting_features_ &&
         static_cast<double>(faults.needles.size()) > kMostNeedles * mesh.face_end() + kFewNeedles;
     weigh(mesh, target, faults);
     return faults;

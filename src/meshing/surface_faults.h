@@ -36,7 +36,9 @@ struct SurfaceFaults {
 class FaultFinder {
 public:
     /// Samples are the vertices of `mesh` and points of its creases, half an edge length apart.
-    FaultFinder(const Mesh& mesh, double edge_length);
+    /// `has_fitting_features`: needles count however many there are, since no feature asks for
+    /// them.
+    FaultFinder(const Mesh& mesh, double edge_length, bool has_fitting_features = false);
 
     /// Time near-linear in the mesh and the samples.
     SurfaceFaults find(const WorkingMesh& mesh, const EdgeTarget& target) const;
@@ -55,6 +57,7 @@ private:
 
     const Mesh& input_;
     double edge_length_;
+    bool has_fitting_features_;
     std::vector<SurfaceSample> samples_;
     mutable bool is_input_known_ = false;
     mutable std::vector<Vec3> input_crossings_;  ///< asked for when a remesh has crossings

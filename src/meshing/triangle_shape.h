@@ -30,4 +30,13 @@ inline double flatness_quality(const Vec3& a, const Vec3& b, const Vec3& c) {
     return longest > 0 ? (b - a).cross(c - a).norm() / longest : 0;
 }
 
+/// Radians at p.
+inline double angle_at(const Vec3& p, const Vec3& a, const Vec3& b) {
+    return std::atan2((a - p).cross(b - p).norm(), (a - p).dot(b - p));
+}
+
+/// A vertex with less than that around it, three times 30 degrees, is the tip of a spike: one of
+/// its triangles has an angle under 30 degrees.
+constexpr double kSpikeAngle = 1.5707963267948966;
+
 }  // namespace fcn

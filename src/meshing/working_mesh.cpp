@@ -197,18 +197,26 @@ int WorkingMesh::split(int h, const Vec3& p) {
     return m;
 }
 
+void WorkingMesh::set_cuts_fixed(bool is_fixed) {
+    for (std::uint8_t& flags : flags_)
+        if ((flags & kCut) != 0)
+            flags = static_cast<std::uint8_t>(is_fixed ? flags | kFixed : flags & ~kFixed);
+}
+
 bool WorkingMesh::can_collapse(int h, int vanishing) const {
     const int t = twin(h);
     const int staying = from(h) == vanishing ? to(h) : from(h);
     if (is_fixed(vanishing)) return false;
     if ((is_on_curve(vanishing) || is_on_boundary(vanishing)) && !is_marked(h)) return false;
     if (is_on_boundary(vanishing) && is_on_boundary(staying) && t >= 0) return false;
-    // The triangles at the edge vanish and two pairs of sides become one edge each: never two
-    // curves, and never a pair without a face.
+    // The triangles at the edge vanish and two pairs of sides become one edge each: never a pair
+    // without a face, and two curves only where they meet at both ends and one of them was cut.
     for (const int side : {h, t}) {
         if (side < 0) continue;
         const int a = next(side), b = prev(side);
-        if (is_marked(a) && is_marked(b)) return false;
+        const bool is_cut_off =
+            is_cut(vanishing) && role(a) == EdgeRole::Feature && role(b) == EdgeRole::Feature;
+        if (is_marked(a) && is_marked(b) && !is_cut_off) return false;
         if (twin(a) < 0 && twin(b) < 0) return false;
         const int c = apex(side);
         if (valence(c) <= (is_on_boundary(c) ? 2 : 3)) return false;
@@ -364,7 +372,7 @@ MarkedMesh WorkingMesh::to_marked_mesh() const {
     MarkedMesh marked;
     for (int v = 0; v < vertex_end(); ++v) {
         marked.mesh.add_vertex(point(v));
-        marked.is_fixed_vertex.push_back(is_fixed(v));
+        marked.is_fixed_vertex.push_back(is_fixed(v) && !is_cut(v));
     }
     for (int f = 0; f < face_end(); ++f) {
         const auto [a, b, c] = corners(f);

@@ -70,6 +70,12 @@ public:
     void set_role(int h, EdgeRole role);
     void fix(int v) { flags_[at(v)] |= kFixed; }
     void release(int v) { flags_[at(v)] &= static_cast<std::uint8_t>(~kFixed); }
+    /// Whether the vertex is fixed for no reason of its own: it came of a cut through a feature
+    /// edge, or curves run together there that end in a node nearby.
+    bool is_cut(int v) const { return (flags_[at(v)] & kCut) != 0; }
+    void fix_cut(int v) { flags_[at(v)] |= kFixed | kCut; }
+    /// Fixes all cuts, or releases them.
+    void set_cuts_fixed(bool is_fixed);
     void set_resting(int v, bool is_resting) {
         flags_[at(v)] = static_cast<std::uint8_t>(is_resting ? flags_[at(v)] | kResting
                                                              : flags_[at(v)] & ~kResting);
@@ -146,7 +152,8 @@ private:
         kOnBoundary = 4,
         kAfloat = 8,
         kResting = 16,
-        kThin = 32
+        kThin = 32,
+        kCut = 64
     };
     enum class Array : std::uint8_t { From, Twin, Out, Role };
     struct Change {

@@ -385,6 +385,57 @@ TEST(Remesh, ForcedCornersAreListed) {
     EXPECT_GE(under_30, result.forced_faces.size());
 }
 
+TEST(Remesh, TipsOfSpikesAreListed) {
+    // A cone with 80 degrees of surface around its tip, which a curve ends in: of the three
+    // triangles there, at least one has less than 30.
+    constexpr int kSides = 48;
+    constexpr double kPi = 3.14159265358979323846;
+    const double radius = 80.0 / 360;
+    LoadedMesh mesh;
+    const VertexHandle tip = mesh.mesh.add_vertex({0, 0, std::sqrt(1 - radius * radius)});
+    const VertexHandle base = mesh.mesh.add_vertex({0, 0, 0});
+    std::vector<VertexHandle> ring;
+    for (int i = 0; i < kSides; ++i) {
+        const double angle = 2 * kPi * i / kSides;
+        ring.push_back(
+            mesh.mesh.add_vertex({radius * std::cos(angle), radius * std::sin(angle), 0}));
+    }
+    for (std::size_t i = 0; i < kSides; ++i) {
+        const VertexHandle a = ring[i], b = ring[(i + 1) % kSides];
+        mesh.mesh.add_face(tip, a, b);
+        mesh.mesh.add_face(base, b, a);
+    }
+    FeatureCurveNetwork network;
+    NetworkArc arc;
+    arc.nodes = {0, 1};
+    for (const VertexHandle end : {tip, ring[0]}) {
+        network.nodes.push_back({mesh.mesh.point(end), test::at_vertex(mesh.mesh, end)});
+        arc.samples.push_back({mesh.mesh.point(end), test::at_vertex(mesh.mesh, end)});
+    }
+    network.arcs.push_back(arc);
+    RemeshOptions options;
+    options.edge_length = 0.15;
+    const RemeshResult result = remesh_triangles(mesh, test::cut_evenly(network, 0.125), options);
+    const Mesh& remesh = result.mesh.mesh;
+    VertexHandle kept;
+    for (const VertexHandle v : remesh.vertices())
+        if ((remesh.point(v) - mesh.mesh.point(tip)).norm() < 1e-12) kept = v;
+    ASSERT_TRUE(kept.is_valid());
+    double around = 0;
+    for (const HalfedgeHandle h : remesh.voh_range(kept))
+        around += remesh.calc_sector_angle(remesh.prev_halfedge_handle(h));
+    EXPECT_LT(around, kPi / 2);
+    std::set<int> at_tip;
+    for (const FaceHandle face : remesh.vf_range(kept)) at_tip.insert(face.idx());
+    const std::set<int> forced(result.forced_faces.begin(), result.forced_faces.end());
+    EXPECT_GE(forced.size(), 1U);
+    for (const int face : forced) EXPECT_EQ(at_tip.count(face), 1U);
+    for (const FaceHandle face : remesh.faces())
+        for (const HalfedgeHandle h : remesh.fh_range(face))
+            EXPECT_TRUE(remesh.calc_sector_angle(h) > kPi / 6 || forced.count(face.idx()) == 1)
+                << "face " << face.idx();
+}
+
 TEST(Remesh, ImpossibleInputIsRefused) {
     const LoadedMesh mesh = test::cube(2);
     RemeshOptions options;
