@@ -69,6 +69,19 @@ ModelSurface make_ribs(const ModelOptions& options) {
     });
 }
 
+ModelSurface make_holes(const ModelOptions& options) {
+    // Rows of square holes, a spacing wide and apart; the last row may have fewer.
+    const double spacing = options.spacing;
+    const int columns = static_cast<int>(std::ceil(std::sqrt(options.count)));
+    const int rows = (options.count + columns - 1) / columns;
+    const std::vector<double> x = alternating(0, spacing, spacing, 2 * columns + 1);
+    const std::vector<double> y = alternating(0, spacing, spacing, 2 * rows + 1);
+    return boundary_of_cells({x, y, {0, spacing}}, options.resolution, [&](const Vec3& p) {
+        const int i = interval(x, p.x()), j = interval(y, p.y());
+        return i % 2 == 0 || j % 2 == 0 || j / 2 * columns + i / 2 >= options.count;
+    });
+}
+
 ModelSurface make_step(const ModelOptions& options) {
     return boundary_of_cells({{{0, 0.5, 1}, {0, 0.5}, {0, 0.4, 0.4 + options.spacing}}},
                              options.resolution,

@@ -8,6 +8,7 @@ namespace fcn {
 ModelSurface make_box(const ModelOptions& options);
 ModelSurface make_skyscraper(const ModelOptions& options);
 ModelSurface make_ribs(const ModelOptions& options);
+ModelSurface make_holes(const ModelOptions& options);
 ModelSurface make_step(const ModelOptions& options);
 ModelSurface make_steps(const ModelOptions& options);
 ModelSurface make_thin_wall(const ModelOptions& options);

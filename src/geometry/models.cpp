@@ -23,6 +23,7 @@ constexpr Model kModels[] = {
     {"skyscraper", "tower of `count` tiers with set-backs of 1/4, 1/2, 1, 2 and 4 spacings",
      make_skyscraper, 2},
     {"ribs", "plate with `count` sharp ribs, `spacing` from rib to rib", make_ribs, 1},
+    {"holes", "plate with `count` square holes, `spacing` wide and apart", make_holes, 1},
     {"steps", "stair of `count` steps, `spacing` high and deep", make_steps, 1},
     {"step", "block with a step `spacing` high across it: two creases at that distance", make_step,
      0},

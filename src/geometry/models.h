@@ -23,8 +23,8 @@ struct ModelInfo {
     std::string description;  ///< one line
 };
 
-/// skyscraper, ribs, steps, gear, octaflower, thin-wall, noisy-plane (and box, cylinder, torus,
-/// superellipse-torus, sphere for tests).
+/// skyscraper, ribs, holes, steps, gear, octaflower, thin-wall, noisy-plane (and box, cylinder,
+/// torus, superellipse-torus, sphere for tests).
 std::vector<ModelInfo> model_list();
 
 /// Throws InputError on an unknown name (listing the known) or an option out of range.

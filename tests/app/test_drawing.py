@@ -14,6 +14,8 @@ from scalefcn_process import BAD_INPUT, PROGRAM, USAGE, ProgramTest
 EXPERIMENT = pathlib.Path(__file__).parents[2] / "experiments" / "figures"
 sys.path.insert(0, str(EXPERIMENT))
 from line_plot import line_plot  # noqa: E402  (its folder is known only here)
+from rib_count import count_ribs  # noqa: E402
+from ribbed_plate import ribbed_plate  # noqa: E402
 
 
 def read_png(path):
@@ -119,6 +121,23 @@ class Steps(ProgramTest):
 
 
 class Figures(ProgramTest):
+    def test_ribs_are_counted(self):
+        for count, height in ((9, 0.05), (16, 0.02)):
+            ribbed_plate(self.folder / "plate.off", count=count, height=height)
+            lines = (self.folder / "plate.off").read_text(encoding="utf-8").splitlines()
+            corners = [tuple(map(int, line.split()[1:])) for line in lines if line.startswith("3 ")]
+            edges = {(f[k], f[(k + 1) % 3]) for f in corners for k in range(3)}
+            self.assertEqual(len(edges), 3 * len(corners), "an edge twice in one direction")
+            self.assertEqual(edges, {(b, a) for a, b in edges}, "closed and oriented")
+            self.succeed("convert", "plate.off", "plate.obj", "--as", "mesh")
+            for whole in (height, 4 * height):  # what the rise is a share of
+                found, rise = count_ribs(self.folder / "plate.obj", whole)
+                self.assertLessEqual(abs(found - (count - 2)), 1)  # but for the margins at both ends
+                self.assertAlmostEqual(rise, height / whole, delta=0.05 * height / whole)
+        self.model("box", "--resolution", "0.1")
+        self.succeed("convert", "box.off", "box.obj", "--as", "mesh")
+        self.assertEqual(count_ribs(self.folder / "box.obj", 0.05), (0, 0))
+
     def test_a_figure_shows_what_its_table_names(self):
         self.model("skyscraper")
         done = subprocess.run([sys.executable, "-B", EXPERIMENT / "figures.py", "--scalefcn", PROGRAM, "--meshes",

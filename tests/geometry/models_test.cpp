@@ -142,6 +142,19 @@ TEST(ModelCreases, Ribs) {
     EXPECT_NEAR(crease_length(mesh, -90), 5 * 2 * (0.5 + 0.5 * options.spacing), 1e-9);
 }
 
+TEST(ModelCreases, Holes) {
+    for (const int count : {1, 2, 7, 20}) {
+        SCOPED_TRACE(count);
+        ModelOptions options;
+        options.count = count;
+        const LoadedMesh model = make_model("holes", options);
+        // As many handles as holes, each with four concave creases at its corners.
+        expect_well_made(model, {"holes", 2 - 2 * count, 0}, options.resolution);
+        EXPECT_EQ(odd_crease_length(model.mesh), 0);
+        EXPECT_NEAR(crease_length(model.mesh, -90), 4 * count * options.spacing, 1e-9);
+    }
+}
+
 TEST(ModelCreases, Steps) {
     const ModelOptions options;
     const Mesh mesh = make_model("steps", options).mesh;

@@ -1,5 +1,6 @@
 """Opens an exported mesh with one reader and prints what it found as JSON: vertices, triangles,
-lines (edges of curves), and length (of all lines), as far as the reader knows them.
+quads, lines (edges of curves), length (of all lines), and data of cells by name, as far as the
+reader knows them.
 
 Usage: read_with.py gmsh|vtk|meshio|pymeshlab FILE   (exit code 77: the reader is not installed)
 """
@@ -31,6 +32,8 @@ def with_vtk(path):
     from vtkmodules.vtkIOGeometry import vtkOBJReader
     from vtkmodules.vtkIOPLY import vtkPLYReader
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+    if path.endswith(".vtu"):
+        return with_vtk_cells(path)
     kinds = {".vtp": vtkXMLPolyDataReader, ".obj": vtkOBJReader, ".ply": vtkPLYReader}
     reader = kinds[path[path.rindex("."):]]()
     reader.SetFileName(path)
@@ -45,8 +48,33 @@ def with_vtk(path):
         ids = [cell.GetId(k) for k in range(cell.GetNumberOfIds())]
         pairs += zip(ids, ids[1:])
     points = [data.GetPoint(k) for k in range(data.GetNumberOfPoints())]
-    return {"vertices": len(points), "triangles": data.GetNumberOfPolys(), "lines": len(pairs),
-            "length": length_of(points, pairs)}
+    sides = []
+    polygons = data.GetPolys()
+    polygons.InitTraversal()
+    while polygons.GetNextCell(cell):
+        sides.append(cell.GetNumberOfIds())
+    return {"vertices": len(points), "triangles": sides.count(3), "quads": sides.count(4),
+            "lines": len(pairs), "length": length_of(points, pairs)}
+
+
+def with_vtk_cells(path):
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(path)
+    reader.Update()
+    data = reader.GetOutput()
+    kinds = [data.GetCellType(k) for k in range(data.GetNumberOfCells())]
+    pairs = []
+    for k, kind in enumerate(kinds):
+        if kind == 3:
+            line = data.GetCell(k)
+            pairs.append((line.GetPointId(0), line.GetPointId(1)))
+    points = [data.GetPoint(k) for k in range(data.GetNumberOfPoints())]
+    arrays = data.GetCellData()
+    values = {arrays.GetArrayName(i): [arrays.GetArray(i).GetValue(k) for k in range(len(kinds))]
+              for i in range(arrays.GetNumberOfArrays())}
+    return {"vertices": len(points), "triangles": kinds.count(5), "quads": kinds.count(9),
+            "lines": kinds.count(3), "length": length_of(points, pairs), "data": values}
 
 
 def with_meshio(path):
@@ -54,8 +82,13 @@ def with_meshio(path):
     mesh = meshio.read(path)
     triangles = mesh.cells_dict.get("triangle", [])
     lines = mesh.cells_dict.get("line", [])
-    return {"vertices": len(mesh.points), "triangles": len(triangles), "lines": len(lines),
-            "length": length_of(mesh.points, lines)}
+    found = {"vertices": len(mesh.points), "triangles": len(triangles),
+             "quads": len(mesh.cells_dict.get("quad", [])), "lines": len(lines),
+             "length": length_of(mesh.points, lines)}
+    if mesh.cell_data:
+        found["data"] = {name: [float(x) for part in parts for x in part]
+                         for name, parts in mesh.cell_data.items()}
+    return found
 
 
 def with_pymeshlab(path):

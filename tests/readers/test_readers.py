@@ -26,7 +26,19 @@ def scalefcn(folder, *words):
     return result.stdout
 
 
-class Exports(unittest.TestCase):
+class Reading(unittest.TestCase):
+    def opened(self, reader, name):
+        if not PYTHON.exists():
+            self.skipTest("scripts/setup_readers.sh has not been run")
+        result = subprocess.run([PYTHON, READER, reader, str(self.folder / name)],
+                                capture_output=True, text=True, check=False, timeout=300)
+        if result.returncode == 77:
+            self.skipTest(result.stderr.strip())
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout.splitlines()[-1])
+
+
+class Exports(Reading):
     @classmethod
     def setUpClass(cls):
         """One remesh in every format, and what it holds."""
@@ -54,16 +66,6 @@ class Exports(unittest.TestCase):
             elif kind == "l":
                 length += math.dist(*(points[int(word) - 1] for word in rest))
         return length
-
-    def opened(self, reader, name):
-        if not PYTHON.exists():
-            self.skipTest("scripts/setup_readers.sh has not been run")
-        result = subprocess.run([PYTHON, READER, reader, str(self.folder / name)],
-                                capture_output=True, text=True, check=False, timeout=300)
-        if result.returncode == 77:
-            self.skipTest(result.stderr.strip())
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return json.loads(result.stdout.splitlines()[-1])
 
     def check(self, reader, name, has_lines=True):
         found = self.opened(reader, name)
@@ -106,6 +108,63 @@ class Exports(unittest.TestCase):
         for name in ("part.ply", "part.mesh", "part.msh"):
             self.assertEqual(scalefcn(self.folder, "convert", name, "-", "--as", "mesh"),
                              reference, name)
+
+
+class Quads(Reading):
+    """Quads with their features, and the field that they follow with its mesh."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.scratch.cleanup)
+        cls.folder = pathlib.Path(cls.scratch.name)
+        scalefcn(cls.folder, "model", "box", "--resolution", "0.1", "-o", "box.off")
+        scalefcn(cls.folder, "adapt", "box.off", "--method", "sharp", "--target", "quad", "--scale",
+                 "8%", "-o", "net.fcn.json")
+        cls.told = json.loads(scalefcn(cls.folder, "remesh", "box.off", "--network", "net.fcn.json",
+                                       "--type", "quad", "--json", "-o",
+                                       "quads.obj,quads.off,quads.vtu", "--field",
+                                       "field.rosy,field.obj"))
+
+    def check(self, reader, name, has_lines=True, has_quads=True):
+        found = self.opened(reader, name)
+        quads = self.told["quads"]
+        self.assertEqual(found["vertices"], quads["vertices"], f"{reader} {name}")
+        if has_quads:
+            self.assertEqual((found["quads"], found["triangles"]), (quads["faces"], 0))
+        if has_lines:
+            # The edges of the box, 1 by 0.8 by 0.6.
+            self.assertEqual(found["lines"], self.told["feature_edges"], f"{reader} {name}")
+            self.assertAlmostEqual(found["length"], 4 * 2.4, delta=1e-4)
+        return found
+
+    def test_vtk(self):
+        self.check("vtk", "quads.obj")
+        self.check_data(self.check("vtk", "quads.vtu")["data"])
+
+    def test_meshio(self):
+        # It reads neither lines nor, before 5.3, quads of OBJ.
+        self.check_data(self.check("meshio", "quads.vtu")["data"])
+
+    def test_pymeshlab(self):
+        # It cuts quads into triangles and marks the cuts.
+        found = self.check("pymeshlab", "quads.obj", has_lines=False, has_quads=False)
+        self.assertEqual(found["triangles"], 2 * self.told["quads"]["faces"])
+        self.check("pymeshlab", "quads.off", has_lines=False, has_quads=False)
+
+    def check_data(self, data):
+        count = self.told["quads"]["faces"]
+        jacobians = data["scaled_jacobian"][:count]
+        self.assertAlmostEqual(sum(jacobians) / count, self.told["quads"]["mean_scaled_jacobian"])
+        self.assertAlmostEqual(min(jacobians), self.told["quads"]["min_scaled_jacobian"])
+        self.assertEqual(set(data["arc"][:count]), {-1})
+        self.assertEqual(len(set(data["arc"][count:])), 12)
+
+    def test_the_field_goes_with_its_mesh(self):
+        lines = (self.folder / "field.rosy").read_text(encoding="utf-8").split("\n")
+        found = self.opened("vtk", "field.obj")
+        self.assertEqual(int(lines[0]), found["triangles"])
+        self.assertAlmostEqual(found["length"], 4 * 2.4, delta=1e-4)
 
 
 def positions(arc):
