@@ -28,8 +28,8 @@ constexpr double kGrowth = 1.02;     ///< of a deviation that is larger already
 constexpr std::size_t kMostChecked = 4;
 
 /// What bad triangles are left may cost more shape: those beside creases that no network keeps.
-constexpr std::array<PatchLimits, 3> kStages{
-    {{0.8, 0.9, 0.04}, {0.5, 0.65, 0.1}, {0.1, 0.4, 0.25}}};
+constexpr std::array<PatchLimits, 4> kStages{
+    {{0.8, 0.9, 0.04}, {0.5, 0.65, 0.1}, {0.1, 0.4, 0.25}, {-0.2, 0.1, 0.5}}};
 
 struct Trial {
     enum class Kind { Relax, Flip, Split, Collapse } kind = Kind::Relax;
