@@ -33,9 +33,10 @@ TEST(Comparison, EveryWayMakesAMesh) {
             // Chords of a circle: sagitta L^2 / (8 r).
             EXPECT_LT(row.features.max, 1.1 * 0.15 * 0.15 / (8 * 0.5));
         }
-        if (name == "quadrics")
+        if (name == "quadrics") {
             EXPECT_NEAR(static_cast<double>(row.quality.vertices), static_cast<double>(vertices),
                         2);
+        }
     }
     EXPECT_THROW(run_remesher("nobody", input, 10), InputError);
     EXPECT_THROW(run_remesher("curvature-much", input, 10), InputError);
