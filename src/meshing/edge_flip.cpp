@@ -46,24 +46,28 @@ FlipShape shape_of_flip(const WorkingMesh& mesh, int h) {
 double angle_around(const WorkingMesh& mesh, int v) {
     double sum = 0;
     mesh.visit_star(v, [&](int h) {
-        const Vec3 x = mesh.point(mesh.to(h)) - mesh.point(v);
-        const Vec3 y = mesh.point(mesh.apex(h)) - mesh.point(v);
-        sum += std::atan2(x.cross(y).norm(), x.dot(y));
+        sum += angle_at(mesh.point(v), mesh.point(mesh.to(h)), mesh.point(mesh.apex(h)));
         return true;
     });
     return sum;
 }
 
-/// Valence minus its target, per vertex.
+/// Valence minus its target, per vertex of a face at an edge that does not rest.
 std::vector<int> excess_valences(const WorkingMesh& mesh) {
     std::vector<int> excess(static_cast<std::size_t>(mesh.vertex_end()), 0);
+    std::vector<bool> is_asked_for(excess.size(), false);
     for (int h = 0; h < mesh.halfedge_end(); ++h) {
         if (!mesh.is_first(h)) continue;
         ++excess[static_cast<std::size_t>(mesh.from(h))];
         ++excess[static_cast<std::size_t>(mesh.to(h))];
+        if (mesh.is_edge_resting(h)) continue;
+        for (const int side : {h, mesh.twin(h)})
+            if (side >= 0)
+                for (const int v : mesh.corners(WorkingMesh::face(side)))
+                    is_asked_for[static_cast<std::size_t>(v)] = true;
     }
     for (int v = 0; v < mesh.vertex_end(); ++v) {
-        if (!mesh.is_vertex_alive(v)) continue;
+        if (!mesh.is_vertex_alive(v) || !is_asked_for[static_cast<std::size_t>(v)]) continue;
         int target = 6;
         if (!mesh.is_free(v))
             target = std::max(1, static_cast<int>(std::lround(angle_around(mesh, v) / kThird))) +
