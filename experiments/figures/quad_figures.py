@@ -95,7 +95,7 @@ def figure_11(shop):
         network = shop.scratch / f"crest-{threshold}.fcn.json"
         made = shop.call("detect", mesh, "--method", "crest", "--crest-alone", *ALL_CRESTS, "--crest-cyclideness",
                          threshold, "-o", network)["network"]
-        columns.append((f"threshold {threshold}", f"T{threshold}", network, "own-initial", made, "initial"))
+        columns.append((f"threshold {threshold}", f"T{threshold}", network, "own-initial", made, "kept"))
     network, adapted = shop.scratch / "crest.fcn.json", shop.scratch / "adapted.fcn.json"
     shop.call("detect", mesh, "--method", "crest", "-o", network)
     made = shop.call("adapt", mesh, "--network", network, "--target", "quad", "--scale", DRAGON_SCALE, "-o", adapted)
