@@ -124,28 +124,41 @@ void print_reasons(const std::vector<QuadCase>& cases) {
                             name.c_str(), way.is_by_field ? 1 : 0, way.reason.c_str());
 }
 
-/// Cases of earlier runs, and where new ones go.
+bool is_same(const QuadCase& a, const QuadCase& b) {
+    return a.kind == b.kind && a.mesh == b.mesh && a.scale == b.scale;
+}
+
+/// Cases of earlier runs, and where new ones go. Ways of a case may have come one by one.
 class Results {
 public:
     explicit Results(const std::string& path) : path_(path) {
         std::ifstream file(path);
         for (std::string line; std::getline(file, line);)
-            if (!line.empty()) known_.push_back(from_line(line));
+            if (!line.empty()) keep(from_line(line));
     }
 
-    std::optional<QuadCase> find(const QuadCase& like, const std::vector<std::string>& ways) const {
-        for (const QuadCase& one : known_)
-            if (one.kind == like.kind && one.mesh == like.mesh && one.scale == like.scale &&
-                std::ranges::all_of(ways, [&](const auto& way) { return one.ways.contains(way); }))
-                return one;
-        return std::nullopt;
+    /// The case with the ways of it that are known.
+    QuadCase find(const QuadCase& like) const {
+        const auto found =
+            std::ranges::find_if(known_, [&](const QuadCase& one) { return is_same(one, like); });
+        return found == known_.end() ? like : *found;
     }
 
-    void add(const QuadCase& one) const {
+    void add(const QuadCase& one) {
         if (!path_.empty()) std::ofstream(path_, std::ios::app) << to_line(one) << '\n';
+        keep(one);
     }
 
 private:
+    void keep(const QuadCase& one) {
+        const auto found = std::ranges::find_if(
+            known_, [&](const QuadCase& other) { return is_same(one, other); });
+        if (found == known_.end())
+            known_.push_back(one);
+        else
+            for (const auto& [name, way] : one.ways) found->ways[name] = way;
+    }
+
     std::string path_;
     std::vector<QuadCase> known_;
 };
@@ -163,28 +176,39 @@ bool is_there(const QuadTask& task, const Arguments& arguments) {
            std::filesystem::exists(std::filesystem::path(arguments.folder) / task.mesh);
 }
 
+void report(const QuadCase& one) {
+    for (const auto& [name, way] : one.ways)
+        std::fprintf(stderr, "%s %g %% %s: %zu quads, %.1f s%s%s\n", one.mesh.c_str(), one.scale,
+                     name.c_str(), way.faces, way.cpu_seconds, way.is_by_field ? "" : ", no field",
+                     way.is_sound() ? "" : ", NOT SOUND");
+}
+
 std::vector<QuadCase> run(const Arguments& arguments, const std::vector<QuadTask>& tasks) {
-    const Results results(arguments.results);
+    Results results(arguments.results);
     std::vector<QuadCase> cases;
     for (const QuadTask& task : tasks) {
         std::optional<LoadedMesh> mesh;
         for (const double scale : task.scales) {
-            QuadCase like;
-            like.kind = task.kind;
-            like.mesh = quad_input_name(task.mesh);
-            like.scale = scale;
-            if (const std::optional<QuadCase> found = results.find(like, arguments.ways)) {
-                cases.push_back(*found);
-                continue;
+            QuadCase one;
+            one.kind = task.kind;
+            one.mesh = quad_input_name(task.mesh);
+            one.scale = scale;
+            std::vector<std::string> missing = arguments.ways;
+            std::erase_if(missing, [known = results.find(one).ways](const std::string& way) {
+                return known.contains(way);
+            });
+            if (!missing.empty()) {
+                if (!mesh) mesh = load_quad_input(task.mesh, arguments.folder);
+                const QuadCase made =
+                    run_quad_case(task, scale, *mesh, missing, arguments.pictures);
+                report(made);
+                results.add(made);
             }
-            if (!mesh) mesh = load_quad_input(task.mesh, arguments.folder);
-            cases.push_back(run_quad_case(task, scale, *mesh, arguments.ways, arguments.pictures));
-            results.add(cases.back());
-            for (const auto& [name, way] : cases.back().ways)
-                std::fprintf(stderr, "%s %g %% %s: %zu quads, %.1f s%s%s\n",
-                             cases.back().mesh.c_str(), scale, name.c_str(), way.faces,
-                             way.cpu_seconds, way.is_by_field ? "" : ", no field",
-                             way.is_sound() ? "" : ", NOT SOUND");
+            one = results.find(one);
+            std::erase_if(one.ways, [&](const auto& way) {
+                return std::ranges::find(arguments.ways, way.first) == arguments.ways.end();
+            });
+            cases.push_back(std::move(one));
         }
     }
     return cases;
