@@ -9,10 +9,8 @@ from workshop import SMALL, percent, table
 SHOWN = [
     ("fandisk", ["--method", "sharp"], ["2%", "4%", "6%"]),
     ("rotor_small", ["--method", "sharp"], ["2%", "4%", "6%"]),
-    ("anchor_dense", ["--method", "sharp"], ["2%", "4%", "6%"]),
-    ("octaflower", ["--method", "vsa"], ["2%", "4%", "6%"]),
-    ("camel", ["--method", "crest"], ["1.5%", "2.5%", "4%"]),
-    ("ChineseDragon-10kv", ["--method", "crest"], ["2%", "3%", "4%"]),
+    ("anchor_dense", ["--method", "sharp"], ["3%", "4%", "6%"]),
+    ("camel", ["--method", "crest"], ["2%", "3%", "4%"]),
     ("elephant", ["--method", "crest"], ["2%", "3%", "4%"]),
 ]
 FROM_ABOVE = ["--view=-0.5,-1.2,0.9", "--up", "0,0,1"]
