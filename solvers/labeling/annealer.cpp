@@ -16,6 +16,7 @@ namespace {
 // An entry of an adjacency list takes about 2 ns, a move that is rejected at once 60 ns.
 constexpr std::int64_t kEntriesPerTick = 52;
 constexpr std::int64_t kEntriesPerMove = 34;
+constexpr std::int64_t kEntriesPerWorth = 15;
 constexpr int kMovesPerCheck = 256;
 constexpr std::int64_t kTicksPerPoll = 20000;
 constexpr std::uint32_t kMovesPerRun = 16;  ///< one insertion in so many is a run
@@ -24,10 +25,11 @@ constexpr double kWorthExponent = 0.5, kLeastWorth = 0.03, kMostWorth = 30;
 
 }  // namespace
 
-Annealer::Annealer(const SearchModel& model, const Solution& start, std::uint64_t seed)
+Annealer::Annealer(const SearchModel& model, const Solution& start, std::uint64_t seed,
+                   PassGuard guard)
     : model_(model),
       random_(seed),
-      state_(model, start.labels),
+      state_(model, start.labels, guard),
       moves_(model, state_, random_),
       parts_(model.problem(), model.rows()),
       proposals_(model.proposals()),
@@ -42,6 +44,7 @@ Annealer::Annealer(const SearchModel& model, const Solution& start, std::uint64_
         }
         const double relative = std::clamp(worth / model.scale(), kLeastWorth, kMostWorth);
         worths_.push_back(static_cast<float>(std::pow(relative, kWorthExponent)));
+        guard.step(kEntriesPerWorth);
     }
     for (std::size_t k = 0; k < log_table_.size(); ++k) {
         const auto size = static_cast<double>(log_table_.size());

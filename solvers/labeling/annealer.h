@@ -34,7 +34,9 @@ struct AnnealerStatistics {
 class Annealer {
 public:
     /// `start` must be feasible. The model must outlive the annealer.
-    Annealer(const SearchModel& model, const Solution& start, std::uint64_t seed);
+    /// May stop in the guard.
+    Annealer(const SearchModel& model, const Solution& start, std::uint64_t seed,
+             PassGuard guard = {});
 
     /// Until the next call work stops after `ticks`, or soon after `poll` (may be empty) is true.
     void allow(std::int64_t ticks, std::function<bool()> poll);

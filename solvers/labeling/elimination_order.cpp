@@ -5,6 +5,8 @@
 #include "labeling/elimination_order.h"
 
 #include <algorithm>
+#include <memory_resource>
+#include <vector>
 
 #include "labeling/label_heap.h"
 
@@ -21,7 +23,7 @@ public:
         : control_(control),
           rule_(rule),
           heap_(problem.label_count()),
-          graph_(problem.label_count()),
+          graph_(problem.label_count(), &memory_),
           marks_(problem.label_count(), 0) {}
 
     /// False: a rule is too long, or the run is over.
@@ -43,6 +45,8 @@ public:
                     if (other.label != t.label) graph_[t.label].push_back(other.label);
                 }
             }
+            looked_at += kEntriesPerLabel;
+            if (is_over(looked_at)) return false;
         }
         for (auto& neighbours : graph_) {
             std::sort(neighbours.begin(), neighbours.end());
@@ -57,12 +61,11 @@ public:
 
     std::optional<EliminationOrder> run() {
         EliminationOrder result;
-        result.neighbours.resize(graph_.size());
         std::vector<Label> joined;
         while (!heap_.is_empty()) {
             const Label i = heap_.top();
             heap_.remove(i);
-            auto neighbours = std::move(graph_[i]);
+            const auto& neighbours = graph_[i];
             if (neighbours.size() > EliminationOrder::kMostNeighbours) return std::nullopt;
             for (Label j : neighbours) {
                 auto& its = graph_[j];
@@ -71,14 +74,17 @@ public:
                 std::set_union(its.begin(), its.end(), neighbours.begin(), neighbours.end(),
                                std::back_inserter(joined));
                 std::erase_if(joined, [i, j](Label k) { return k == i || k == j; });
-                its = joined;
+                if (joined.size() > its.capacity()) its.reserve(2 * joined.size());
+                its.assign(joined.begin(), joined.end());
             }
             for (Label j : neighbours) heap_.set(j, score(j));
             result.order.push_back(i);
-            result.neighbours[i] = std::move(neighbours);
             if (work_ < kEntriesPerTick) continue;
             if (control_.spend(work_ / kEntriesPerTick)) return std::nullopt;
             work_ = 0;
+        }
+        for (const auto& neighbours : graph_) {
+            result.neighbours.emplace_back(neighbours.begin(), neighbours.end());
         }
         return result;
     }
@@ -112,8 +118,10 @@ private:
     RunControl& control_;
     const EliminationRule rule_;
     LabelHeap heap_;
-    std::vector<std::vector<Label>> graph_;  ///< of the labels that are left
-    std::vector<std::int64_t> marks_;        ///< mark_ on the neighbours that are looked at
+    std::pmr::monotonic_buffer_resource memory_;  ///< of all lists, given back at once
+    /// Neighbours among the labels that are left; of a label that is gone, when it went.
+    std::pmr::vector<std::pmr::vector<Label>> graph_;
+    std::vector<std::int64_t> marks_;  ///< mark_ on the neighbours that are looked at
     std::int64_t mark_ = 0;
     std::int64_t work_ = 0;
 };

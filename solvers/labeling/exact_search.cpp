@@ -53,8 +53,10 @@ public:
 
     SolveResult run() {
         if (reduced_ && reduced_->is_infeasible()) return infeasible();
+        guard().look();
         decomposer_.set_guard(guard());
         if (!propagator_.propagate_all()) return infeasible();
+        guard().look();
         decided_ = decided_value(problem_, propagator_.values());
         labels_.assign(problem_.label_count(), 0);
         for (Label i = 0; i < problem_.label_count(); ++i) labels_[i] = propagator_.value(i) == 1;
@@ -199,6 +201,7 @@ private:
         search.seed = options_.seed;
         search.threads = options_.threads;
         search.techniques = techniques_;
+        search.has_labeling = given_.has_value();
         search.treewidth = &treewidth_;
         search.report = [&part, this](std::optional<Value> value, std::optional<Value> bound) {
             if (value) part.value = std::max(part.value, *value);

@@ -42,6 +42,7 @@ public:
         : problem_(problem), control_(control), options_(options), propagator_(problem, rows) {}
 
     GreedyResult run() {
+        if (is_urgent() && is_empty_feasible()) return std::move(result_);
         if (!propagator_.propagate_all()) {
             result_.is_infeasible = true;
             return std::move(result_);
@@ -58,6 +59,22 @@ public:
     }
 
 private:
+    /// Clock or stop token have ended the run, and a construction would take a while. (Of a work
+    /// limit every construction may overrun a little.)
+    bool is_urgent() {
+        if (problem_.label_count() <= kUninterrupted) return false;
+        control_.check();
+        return control_.is_over() && control_.reason() != StopReason::WorkLimit;
+    }
+
+    /// Then that is a labeling, too.
+    bool is_empty_feasible() {
+        Solution empty{std::vector<std::uint8_t>(problem_.label_count(), 0), 0};
+        if (!check_solution(problem_, empty).is_feasible) return false;
+        result_.solution = std::move(empty);
+        return true;
+    }
+
     /// Then nothing is left to choose.
     bool is_start_complete() {
         const auto start = options_.start;
@@ -80,6 +97,7 @@ private:
 
     /// Keeps the labeling by one rule if it is the best so far.
     void construct(GreedyRule rule) {
+        propagator_.undo(root_);
         bool is_complete = false;
         try {
             is_complete = complete(rule);
@@ -94,28 +112,46 @@ private:
             result_.solution = std::move(s);
             result_.rule = rule;
         }
-        propagator_.undo(root_);
     }
 
     /// False: a dead end.
     bool complete(GreedyRule rule) {
-        const Label n = problem_.label_count();
-        // The first labeling is wanted in any case.
-        const bool may_stop = result_.solution && n > kUninterrupted;
-        GreedyState state(problem_, propagator_, rule,
-                          may_stop ? PassGuard(control_) : PassGuard());
-        if (!options_.start.empty()) {
-            for (int value : {1, 0}) {
-                for (Label i = 0; i < n; ++i) {
-                    if (options_.start[i] == value && !state.decide(i, value == 1)) return false;
-                }
-            }
-            state.update();
+        const bool may_stop = problem_.label_count() > kUninterrupted && !control_.is_over();
+        try {
+            if (!choose(rule, may_stop ? PassGuard(control_) : PassGuard())) return false;
+        } catch (const StoppedInPass&) {
+            // The first labeling is wanted in any case, be it without any choice.
+            if (result_.solution) throw;
         }
+        for (Label i = 0; i < problem_.label_count(); ++i) {
+            if (!decide(propagator_, i, false)) return false;
+        }
+        return true;
+    }
+
+    /// False: a dead end.
+    bool follow_start(PassGuard guard) {
+        if (options_.start.empty()) return true;
+        for (int value : {1, 0}) {
+            for (Label i = 0; i < problem_.label_count(); ++i) {
+                if (options_.start[i] != value) continue;
+                const std::int64_t before = propagator_.work();
+                if (!decide(propagator_, i, value == 1)) return false;
+                guard.step(1 + propagator_.work() - before);
+            }
+        }
+        return true;
+    }
+
+    /// As long as a choice gains; false: a dead end. Throws when it is stopped.
+    bool choose(GreedyRule rule, PassGuard guard) {
+        GreedyState state(problem_, propagator_, rule, guard);
+        if (!follow_start(guard)) return false;
+        state.update();
         std::int64_t work = 0;
         for (Label i = state.best(); i >= 0; i = state.best()) {
             const double score = state.score(i);
-            if (!state.decide(i, true)) return false;
+            if (!decide(propagator_, i, true)) return false;
             ++result_.insertions;
             state.update();
             if (rule == GreedyRule::Curve && propagator_.value(i) == 1 &&
@@ -125,12 +161,9 @@ private:
             if (state.work() - work < kEntriesPerCheck) continue;
             charge(state.work() - work);
             work = state.work();
-            if (stops()) break;
+            if (stops()) throw StoppedInPass();
         }
         charge(state.work() - work);
-        for (Label i = 0; i < n; ++i) {
-            if (!state.decide(i, false)) return false;
-        }
         return true;
     }
 
@@ -146,7 +179,7 @@ private:
             }
             if (next < 0 || state.gain(next) <= 0) return true;
             if (state.score(next) < kRunShare * first_score) return true;
-            if (!state.decide(next, true)) return false;
+            if (!decide(propagator_, next, true)) return false;
             ++result_.insertions;
             state.update();
             if (propagator_.value(next) != 1) return true;
@@ -157,6 +190,7 @@ private:
     /// Depth-first search for any solution that tries first what the last construction decided
     /// before its dead end.
     void search() {
+        propagator_.undo(root_);
         struct Decision {
             std::size_t place;  ///< in the order; what is before it is decided
             std::size_t trail_size;

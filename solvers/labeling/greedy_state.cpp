@@ -70,12 +70,12 @@ Label GreedyState::best() {
     return -1;
 }
 
-bool GreedyState::decide(Label i, bool value) {
-    if (!propagator_.is_free(i)) return true;
-    const std::size_t size = propagator_.trail().size();
-    if (propagator_.assign(i, value)) return true;
-    propagator_.undo(size);
-    return propagator_.assign(i, !value);
+bool decide(Propagator& propagator, Label i, bool value) {
+    if (!propagator.is_free(i)) return true;
+    const std::size_t size = propagator.trail().size();
+    if (propagator.assign(i, value)) return true;
+    propagator.undo(size);
+    return propagator.assign(i, !value);
 }
 
 void GreedyState::touch(Label i) {

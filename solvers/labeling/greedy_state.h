@@ -28,8 +28,6 @@ public:
 
     /// Undecided label of the best score, or -1 when none has a gain.
     Label best();
-    /// Assigns; where that contradicts, assigns the opposite. False: a dead end.
-    bool decide(Label i, bool value);
     /// Brings scores up to date with what has been decided.
     void update();
 
@@ -54,5 +52,8 @@ private:
     std::vector<std::uint8_t> is_changed_;
     std::int64_t work_ = 0;
 };
+
+/// Assigns a free label; where that contradicts, assigns the opposite. False: a dead end.
+bool decide(Propagator& propagator, Label i, bool value);
 
 }  // namespace labeling

@@ -62,31 +62,34 @@ struct RecentGain {
 class LocalSearch {
 public:
     LocalSearch(const LabelingProblem& problem, const RowSystem& rows, RunControl& control,
-                Solution start, const LocalSearchOptions& options,
+                const Solution& start, const LocalSearchOptions& options,
                 const std::function<void(Value)>& report)
         : options_(options),
           control_(control),
           report_(report),
           random_(options.seed),
-          model_(problem, rows),
+          model_(problem, rows, PassGuard(control)),
           splitter_(model_),
           merger_(problem, rows, control, options.seed),
           lanes_(model_, start, options.seed, static_cast<std::size_t>(options.lanes),
                  options.threads, control),
           size_(static_cast<std::int64_t>(model_.proposals().size())),
           best_(start),
-          climb_(std::move(start)) {}
+          climb_(start) {}
 
     void run() {
         if (size_ == 0) return;
         first_work_ = control_.work();
         last_worthwhile_ = first_work_;
         worthwhile_value_ = best_.value;
-        while (!has_ended()) {
-            climb();
-            if (!options_.restarts) continue;
-            if (options_.recombination) recombine();
-            insert(climb_);
+        try {
+            while (!has_ended()) {
+                climb();
+                if (!options_.restarts) continue;
+                if (options_.recombination) recombine();
+                insert(climb_);
+            }
+        } catch (const StoppedInPass&) {  // between rounds: best_ is complete
         }
     }
 
@@ -215,7 +218,8 @@ private:
         const std::int64_t largest = size_ > kManyLabels ? kLargeRegion : kSmallRegion;
         const auto each = static_cast<std::int64_t>(lanes_.size()) * largest;
         const auto regions = splitter_.split(
-            random_, lanes_.size() * static_cast<std::size_t>((size_ + each - 1) / each));
+            random_, lanes_.size() * static_cast<std::size_t>((size_ + each - 1) / each),
+            PassGuard(control_));
         control_.spend(splitter_.take_work() / 16);
         std::vector<std::vector<std::size_t>> shares(lanes_.size());
         std::vector<std::size_t> labels(lanes_.size(), 0);
@@ -433,10 +437,14 @@ Solution improve_labeling(const LabelingProblem& problem, const RowSystem& rows,
                           RunControl& control, Solution start, const LocalSearchOptions& options,
                           const std::function<void(Value)>& report,
                           LocalSearchStatistics* statistics) {
-    LocalSearch search(problem, rows, control, std::move(start), options, report);
-    search.run();
-    if (statistics != nullptr) *statistics = search.statistics();
-    return search.take_best();
+    try {
+        LocalSearch search(problem, rows, control, start, options, report);
+        search.run();
+        if (statistics != nullptr) *statistics = search.statistics();
+        return search.take_best();
+    } catch (const StoppedInPass&) {
+        return start;
+    }
 }
 
 std::shared_ptr<const Solver> make_local_search_solver() {

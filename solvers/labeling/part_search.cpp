@@ -9,6 +9,7 @@
 
 #include "labeling/greedy.h"
 #include "labeling/local_search.h"
+#include "labeling/reduced_search.h"
 #include "labeling/rows.h"
 #include "labeling/subproblem.h"
 
@@ -112,6 +113,7 @@ PartStart start_part(const LabelingProblem& problem, std::span<const std::int8_t
         return {narrow->solution, !narrow->solution, narrow->solution.has_value()};
     }
     if (!options.techniques.heuristics) return {};
+    if (options.has_labeling && control.is_over() && takes_long_to_reduce(problem)) return {};
     const RowSystem rows(problem);
     GreedyOptions greedy;
     greedy.start = labels;

@@ -19,7 +19,8 @@ struct PartSearchOptions {
     std::uint64_t seed = 1;
     int threads = 1;  ///< of the local search
     Techniques techniques;
-    bool is_wide = false;  ///< known from start_part: dynamic programming takes too long
+    bool has_labeling = false;  ///< once the run is over, a large problem needs no other
+    bool is_wide = false;       ///< known from start_part: dynamic programming takes too long
     TreewidthStatistics* treewidth = nullptr;  ///< counts on; may be null
     /// Better values and bounds of the part as they are found; may be empty.
     std::function<void(std::optional<Value>, std::optional<Value>)> report;

@@ -10,11 +10,14 @@
 #include <numeric>
 #include <vector>
 
+#include "labeling/pass_guard.h"
+
 namespace labeling {
 namespace {
 
 constexpr std::int64_t kEntriesPerTick = 52;
 constexpr std::int64_t kEntriesPerLook = 50'000;
+constexpr std::int64_t kEntriesPerComparison = 1;
 
 /// What a label earns at most; 0 where its weight is less than its bonuses make good.
 std::vector<Value> shared_values(const LabelingProblem& problem) {
@@ -33,9 +36,16 @@ Value quick_clique_bound(const LabelingProblem& problem, RunControl& control) {
     const std::vector<Value> values = shared_values(problem);
     std::vector<Label> order(values.size());
     std::iota(order.begin(), order.end(), Label{0});
-    std::sort(order.begin(), order.end(), [&](Label a, Label b) {
-        return values[a] != values[b] ? values[a] > values[b] : a < b;
-    });
+    PassGuard guard(control);
+    try {
+        guard.look();
+        std::sort(order.begin(), order.end(), [&](Label a, Label b) {
+            guard.step(kEntriesPerComparison);
+            return values[a] != values[b] ? values[a] > values[b] : a < b;
+        });
+    } catch (const StoppedInPass&) {
+        return std::accumulate(values.begin(), values.end(), Value{0});
+    }
     constexpr std::int32_t kNone = -1;
     std::vector<std::int32_t> clique(values.size(), kNone);
     std::vector<std::int32_t> sizes, hits;

@@ -44,7 +44,10 @@ ReducedSearchResult search_reduced(const LabelingProblem& problem, const SolveOp
         if (given) control.report(given->value, std::nullopt);
         if (result.is_infeasible || !is_reducing) {
             const auto report = [&](Value value) { control.report(value, std::nullopt); };
-            if (given) result.solution = improve(problem, rows, std::move(*given), report);
+            if (given && !control.is_over()) {
+                given = improve(problem, rows, std::move(*given), report);
+            }
+            result.solution = std::move(given);
             return result;
         }
     }
@@ -67,6 +70,10 @@ ReducedSearchResult search_reduced(const LabelingProblem& problem, const SolveOp
     if (given && !options.warm_start.empty()) {
         start.assign(given->labels.begin(), given->labels.end());
         start = reduced->project(start);
+    }
+    if (given && control.is_over()) {
+        result.solution = std::move(given);
+        return result;
     }
     const RowSystem rows(reduced->problem());
     std::optional<Solution> found = greedy_start(reduced->problem(), rows, control, start, result);

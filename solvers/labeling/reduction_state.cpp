@@ -12,7 +12,7 @@ namespace labeling {
 namespace {
 
 template <class Entry, class Key, class KeyOf>
-auto place_of(std::vector<Entry>& entries, Key key, KeyOf key_of) {
+auto place_of(std::pmr::vector<Entry>& entries, Key key, KeyOf key_of) {
     return std::lower_bound(entries.begin(), entries.end(), key,
                             [&](const Entry& e, Key k) { return key_of(e) < k; });
 }
@@ -20,13 +20,15 @@ auto place_of(std::vector<Entry>& entries, Key key, KeyOf key_of) {
 constexpr std::int8_t kMoved = 2;
 /// What making and emptying the lists of a label costs, in entries.
 constexpr std::int64_t kEntriesPerLabel = 100;
+/// What making a row costs the guard, in entries.
+constexpr std::int64_t kEntriesPerRow = 25;
 
 const auto kLabelItself = [](Label i) { return i; };
 const auto kLabelOf = [](const auto& entry) { return entry.label; };
 const auto kRowOf = [](const ReductionState::Use& use) { return use.row; };
 
 template <class Entry, class Key, class KeyOf>
-void erase_key(std::vector<Entry>& entries, Key key, KeyOf key_of) {
+void erase_key(std::pmr::vector<Entry>& entries, Key key, KeyOf key_of) {
     const auto place = place_of(entries, key, key_of);
     if (place != entries.end() && key_of(*place) == key) entries.erase(place);
 }
@@ -37,9 +39,9 @@ ReductionState::ReductionState(const LabelingProblem& problem, PassGuard guard)
     : problem_(problem),
       weights_(problem.weights().begin(), problem.weights().end()),
       potentials_(weights_),
-      conflicts_(problem.label_count()),
-      bonuses_(problem.label_count()),
-      uses_(problem.label_count()),
+      conflicts_(problem.label_count(), &memory_),
+      bonuses_(problem.label_count(), &memory_),
+      uses_(problem.label_count(), &memory_),
       is_alive_(problem.label_count(), 1),
       is_queued_(problem.label_count(), 0),
       pending_(problem.label_count(), -1),
@@ -57,17 +59,21 @@ ReductionState::ReductionState(const LabelingProblem& problem, PassGuard guard)
         total_ += b.value;
         potentials_[b.first] += b.value;
         potentials_[b.second] += b.value;
+        guard.step(1);
     }
     for (const Rule& rule : problem.rules()) {
         for (int sign : {1, -1}) {
             if (rule.relation == (sign > 0 ? Relation::GreaterEqual : Relation::LessEqual))
                 continue;
             const auto r = row_count();
-            rows_.push_back({rule.terms, sign * rule.right_hand_side, true});
+            rows_.push_back({{rule.terms.begin(), rule.terms.end(), &memory_},
+                             sign * rule.right_hand_side,
+                             true});
             for (Term& t : rows_.back().terms) {
                 t.coefficient *= sign;
                 uses_[t.label].push_back({r, t.coefficient});
             }
+            guard.step(kEntriesPerRow);
         }
     }
     is_row_queued_.assign(rows_.size(), 0);
@@ -215,9 +221,9 @@ void ReductionState::remove(Label i) {
         touch_row(use.row);
     }
     work += static_cast<std::int64_t>(conflicts_[i].size() + bonuses_[i].size() + uses_[i].size());
-    conflicts_[i] = {};
-    bonuses_[i] = {};
-    uses_[i] = {};
+    conflicts_[i].clear();
+    bonuses_[i].clear();
+    uses_[i].clear();
     is_alive_[i] = 0;
 }
 
@@ -240,9 +246,9 @@ void ReductionState::merge(Label i, Label into) {
     const Value gain = weights_[i] + bonus(i, into);
     weights_[into] += gain;
     potentials_[into] += gain;
-    const std::vector<Partner> bonuses = bonuses_[i];
-    const std::vector<Label> conflicts = conflicts_[i];
-    const std::vector<Use> uses = uses_[i];
+    const std::vector<Partner> bonuses(bonuses_[i].begin(), bonuses_[i].end());
+    const std::vector<Label> conflicts(conflicts_[i].begin(), conflicts_[i].end());
+    const std::vector<Use> uses(uses_[i].begin(), uses_[i].end());
     remove(i);
     for (Label j : conflicts) {
         if (j == into) {
@@ -318,7 +324,7 @@ void ReductionState::drop_row(std::int32_t r) {
         erase_key(uses_[t.label], r, kRowOf);
         touch_around(t.label);
     }
-    rows_[r].terms = {};
+    rows_[r].terms.clear();
 }
 
 void ReductionState::touch(Label i) {
@@ -387,9 +393,11 @@ ReducedProblem ReductionState::take_result(PassGuard guard) {
         }
         for (const Row& row : rows_) {
             if (!row.is_alive) continue;
-            Rule rule{Relation::LessEqual, row.right_hand_side, row.terms};
+            Rule rule{
+                Relation::LessEqual, row.right_hand_side, {row.terms.begin(), row.terms.end()}};
             for (Term& t : rule.terms) t.label = renamed[t.label];
             builder.add_rule(std::move(rule));
+            guard.step(kEntriesPerRow);
         }
     }
     result_.problem_ = builder.build([&] { guard.look(); });

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -21,7 +22,7 @@ public:
         std::int32_t coefficient = 0;
     };
     struct Row {
-        std::vector<Term> terms;  ///< ascending labels
+        std::pmr::vector<Term> terms;  ///< ascending labels
         std::int64_t right_hand_side = 0;
         bool is_alive = true;
     };
@@ -99,9 +100,12 @@ private:
 
     const LabelingProblem& problem_;
     std::vector<Value> weights_, potentials_;
-    std::vector<std::vector<Label>> conflicts_;
-    std::vector<std::vector<Partner>> bonuses_;
-    std::vector<std::vector<Use>> uses_;
+    /// Of all lists: they come in millions, and are given back at once. What a list leaves behind
+    /// when it grows stays here, which is little, since most only shrink.
+    std::pmr::monotonic_buffer_resource memory_;
+    std::pmr::vector<std::pmr::vector<Label>> conflicts_;
+    std::pmr::vector<std::pmr::vector<Partner>> bonuses_;
+    std::pmr::vector<std::pmr::vector<Use>> uses_;
     std::vector<Row> rows_;
     std::vector<std::uint8_t> is_alive_, is_queued_, is_row_queued_, is_row_checked_;
     std::vector<std::int8_t> pending_;  ///< value that fix() has ordered, or -1

@@ -119,6 +119,7 @@ std::vector<std::int8_t> ReducedProblem::project(std::span<const std::int8_t> st
 
 ReducedProblem reduce_problem(const LabelingProblem& problem, RunControl& control,
                               const ReductionOptions& options, PassGuard guard) {
+    guard.look();
     return Reducer(problem, control, options, guard).run();
 }
 

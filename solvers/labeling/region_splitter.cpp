@@ -18,7 +18,9 @@ void RegionSplitter::visit_neighbours(Label i, const Visit& visit) {
     const LabelingProblem& problem = model_.problem();
     for (const auto& b : problem.bonuses_of(i)) visit(b.label);
     for (Label j : problem.conflicts_of(i)) visit(j);
-    work_ += static_cast<std::int64_t>(problem.conflicts_of(i).size()) + 4;
+    const auto entries = static_cast<std::int64_t>(problem.conflicts_of(i).size()) + 4;
+    work_ += entries;
+    guard_.step(entries);
 }
 
 void RegionSplitter::order_from(Label start) {
@@ -69,7 +71,9 @@ void RegionSplitter::grow(Random& random, std::size_t count) {
     work_ += static_cast<std::int64_t>(order_.size());
 }
 
-std::vector<std::vector<Label>> RegionSplitter::split(Random& random, std::size_t count) {
+std::vector<std::vector<Label>> RegionSplitter::split(Random& random, std::size_t count,
+                                                      PassGuard guard) {
+    guard_ = guard;
     order_.clear();
     region_.assign(model_.label_count(), kUnseen);
     if (count == 2) {

@@ -14,7 +14,8 @@ namespace labeling {
 class RegionSplitter {
 public:
     explicit RegionSplitter(const SearchModel& model);
-    std::vector<std::vector<Label>> split(Random& random, std::size_t count);
+    /// May stop in the guard.
+    std::vector<std::vector<Label>> split(Random& random, std::size_t count, PassGuard guard = {});
     /// Adjacency entries touched since the last call.
     std::int64_t take_work() { return std::exchange(work_, 0); }
 
@@ -29,6 +30,7 @@ private:
     std::vector<Label> order_;
     std::vector<std::int32_t> region_;
     std::int64_t work_ = 0;
+    PassGuard guard_;
 };
 
 }  // namespace labeling

@@ -6,6 +6,10 @@
 namespace labeling {
 
 RowSystem::RowSystem(const LabelingProblem& problem) {
+    row_begin_.reserve(problem.rule_count() + 1);
+    right_hand_sides_.reserve(problem.rule_count());
+    min_activities_.reserve(problem.rule_count());
+    max_coefficients_.reserve(problem.rule_count());
     for (const Rule& rule : problem.rules()) {
         if (rule.relation != Relation::GreaterEqual) add(rule, 1);
         if (rule.relation != Relation::LessEqual) add(rule, -1);

@@ -8,7 +8,8 @@ SearchLanes::SearchLanes(const SearchModel& model, const Solution& start, std::u
                          std::size_t lanes, int threads, RunControl& control)
     : control_(control), threads_(threads) {
     for (std::size_t k = 0; k < lanes; ++k) {
-        lanes_.push_back(std::make_unique<Annealer>(model, start, seed * 1000003 + k));
+        lanes_.push_back(
+            std::make_unique<Annealer>(model, start, seed * 1000003 + k, PassGuard(control)));
     }
 }
 

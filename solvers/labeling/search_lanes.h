@@ -17,6 +17,7 @@ class SearchLanes {
 public:
     using Task = std::function<void(Annealer&, std::size_t)>;
 
+    /// May stop in a guard on `control`.
     SearchLanes(const SearchModel& model, const Solution& start, std::uint64_t seed,
                 std::size_t lanes, int threads, RunControl& control);
 

@@ -5,6 +5,9 @@
 namespace labeling {
 namespace {
 
+/// What a row and a label cost the guard, in entries.
+constexpr std::int64_t kEntriesPerRow = 2, kEntriesPerLabel = 5;
+
 bool is_triple(const RowSystem& rows, std::int32_t row) {
     const auto terms = rows.terms(row);
     return rows.right_hand_side(row) == 2 && terms.size() == 3 &&
@@ -14,11 +17,14 @@ bool is_triple(const RowSystem& rows, std::int32_t row) {
 
 }  // namespace
 
-SearchModel::SearchModel(const LabelingProblem& problem, const RowSystem& rows)
+SearchModel::SearchModel(const LabelingProblem& problem, const RowSystem& rows, PassGuard guard)
     : problem_(problem), rows_(rows) {
     const Label n = problem.label_count();
     std::vector<std::uint8_t> triple(rows.row_count());
-    for (std::int32_t row = 0; row < rows.row_count(); ++row) triple[row] = is_triple(rows, row);
+    for (std::int32_t row = 0; row < rows.row_count(); ++row) {
+        triple[row] = is_triple(rows, row);
+        guard.step(kEntriesPerRow);
+    }
     pair_begin_.reserve(n + 1);
     use_begin_.reserve(n + 1);
     for (Label i = 0; i < n; ++i) {
@@ -34,6 +40,7 @@ SearchModel::SearchModel(const LabelingProblem& problem, const RowSystem& rows)
             pairs_.push_back({t[at == 0 ? 1 : 0].label, t[at == 2 ? 1 : 2].label});
         }
         if (is_proposed(i)) proposals_.push_back(i);
+        guard.step(kEntriesPerLabel + static_cast<std::int64_t>(rows.uses(i).size()));
     }
     pair_begin_.push_back(static_cast<std::uint32_t>(pairs_.size()));
     use_begin_.push_back(static_cast<std::uint32_t>(uses_.size()));

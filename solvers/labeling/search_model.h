@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "labeling/pass_guard.h"
 #include "labeling/problem.h"
 #include "labeling/rows.h"
 
@@ -20,8 +21,8 @@ public:
         Label second = 0;
     };
 
-    /// Both must outlive the model.
-    SearchModel(const LabelingProblem& problem, const RowSystem& rows);
+    /// Both must outlive the model. May stop in the guard.
+    SearchModel(const LabelingProblem& problem, const RowSystem& rows, PassGuard guard = {});
 
     const LabelingProblem& problem() const { return problem_; }
     const RowSystem& rows() const { return rows_; }

@@ -4,7 +4,8 @@
 
 namespace labeling {
 
-SearchState::SearchState(const SearchModel& model, std::span<const std::uint8_t> start)
+SearchState::SearchState(const SearchModel& model, std::span<const std::uint8_t> start,
+                         PassGuard guard)
     : model_(model),
       labels_(model.label_count(), 0),
       nodes_(model.label_count()),
@@ -16,7 +17,10 @@ SearchState::SearchState(const SearchModel& model, std::span<const std::uint8_t>
     }
     for (Label i = 0; i < model.label_count(); ++i) nodes_[i].gain = model.problem().weight(i);
     for (Label i = 0; i < model.label_count(); ++i) {
-        if (start[i] != 0) switch_on<false>(i);
+        if (start[i] == 0) continue;
+        const std::int64_t before = work_;
+        switch_on<false>(i);
+        guard.step(work_ - before);
     }
 }
 

@@ -21,7 +21,9 @@ struct BrokenRule {
 /// be marked as touched until the next transaction.
 class SearchState {
 public:
-    SearchState(const SearchModel& model, std::span<const std::uint8_t> start);
+    /// May stop in the guard.
+    SearchState(const SearchModel& model, std::span<const std::uint8_t> start,
+                PassGuard guard = {});
 
     bool is_on(Label i) const { return labels_[i] != 0; }
     std::span<const std::uint8_t> labels() const { return labels_; }

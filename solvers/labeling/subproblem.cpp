@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace labeling {
+namespace {
+
+/// What making a rule costs the guard, in entries.
+constexpr std::int64_t kEntriesPerRow = 25;
+
+}  // namespace
 
 Decomposer::Decomposer(const LabelingProblem& problem, const RowSystem& rows)
     : problem_(problem),
@@ -103,10 +109,16 @@ Subproblem Decomposer::extract(const Propagator& propagator, std::span<const Lab
     std::vector<std::int32_t> open;
     for (Label i : members) {
         for (const auto& use : rows_.uses(i)) open.push_back(use.row);
+        guard_.step(static_cast<std::int64_t>(rows_.uses(i).size()) + 1);
     }
-    std::sort(open.begin(), open.end());
+    std::sort(open.begin(), open.end(), [this](std::int32_t a, std::int32_t b) {
+        guard_.step(1);
+        return a < b;
+    });
     open.erase(std::unique(open.begin(), open.end()), open.end());
+    guard_.look();
     for (std::int32_t row : open) {
+        guard_.step(kEntriesPerRow);
         if (!is_open(propagator, row)) continue;
         Rule rule{Relation::LessEqual, rows_.right_hand_side(row), {}};
         for (const Term& t : rows_.terms(row)) {

@@ -9,6 +9,7 @@
 #include <ctime>
 #include <exception>
 #include <string>
+#include <utility>
 
 #include "labeling/errors.h"
 #include "labeling/formats.h"
@@ -109,11 +110,20 @@ void print_line(const Arguments& arguments, const labeling::SolveResult& result,
     std::printf("\n");
 }
 
+/// Once for each type. Taking millions of rules apart takes longer than an answer to a signal may.
+template <class T>
+const T& kept_to_the_end(T value) {
+    static const T* const kept = new T(std::move(value));
+    return *kept;
+}
+
 int run(const Arguments& arguments) {
     auto options = arguments.options;
+    labeling::has_nothing_to_save() = true;
     options.stop = labeling::stop_at_signals();
-    const auto given = labeling::read_problem(arguments.file);
-    const auto renamed = labeling::rename_labels(given, arguments.renaming);
+    const auto& given = kept_to_the_end(labeling::read_problem(arguments.file));
+    const auto& renamed = kept_to_the_end(labeling::rename_labels(given, arguments.renaming));
+    labeling::has_nothing_to_save() = false;
     if (!arguments.start.empty()) {
         const auto start = labeling::read_solution(arguments.start, given);
         options.warm_start =

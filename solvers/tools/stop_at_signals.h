@@ -2,12 +2,20 @@
 
 #include <pthread.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <stop_token>
 #include <thread>
 
 namespace labeling {
+
+/// While it is true, there is nothing that a stop could save: the first SIGINT or SIGTERM ends the
+/// program, with exit code 4.
+inline std::atomic<bool>& has_nothing_to_save() {
+    static std::atomic<bool> flag{false};
+    return flag;
+}
 
 /// The first SIGINT or SIGTERM requests a stop; the next one ends the program, unless it is one
 /// that has to clean up: a signal that is told by the kernel when a parent dies comes once for each
@@ -23,6 +31,7 @@ inline std::stop_token stop_at_signals(bool has_to_clean_up = false) {
     std::thread([signals, has_to_clean_up] {
         int signal = 0;
         if (sigwait(&signals, &signal) != 0) return;
+        if (has_nothing_to_save()) std::_Exit(4);
         source.request_stop();
         while (has_to_clean_up) sigwait(&signals, &signal);
         if (sigwait(&signals, &signal) == 0) std::_Exit(128 + signal);

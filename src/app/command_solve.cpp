@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <utility>
 
 #include "app/adaptation_arguments.h"
 #include "app/command.h"
@@ -100,12 +101,19 @@ bool write_proof(const labeling::LabelingProblem& problem, const labeling::Solve
     return true;
 }
 
+/// Taking millions of rules apart takes longer than an answer to Ctrl-C may.
+const labeling::LabelingProblem& kept_to_the_end(labeling::LabelingProblem problem) {
+    static const auto* const kept = new labeling::LabelingProblem(std::move(problem));
+    return *kept;
+}
+
 int solve(const SolveArguments& arguments) {
     if (!arguments.output.empty())
         prepare_output(arguments.output, OutputKind::Other, arguments.common);
     if (!arguments.proof_path.empty())
         prepare_output(arguments.proof_path, OutputKind::Other, arguments.common);
-    const labeling::LabelingProblem problem = load_problem(arguments.problem_path);
+    const labeling::LabelingProblem& problem =
+        kept_to_the_end(load_problem(arguments.problem_path));
     const labeling::SolveResult result = run_solver(problem, arguments);
     if (result.solution && !arguments.output.empty())
         save_text(arguments.output, labeling::format_solution(*result.solution));

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "app/interrupt.h"
 #include "geometry/errors.h"
 #include "labeling/formats.h"
 #include "network/network_io.h"
@@ -79,6 +80,7 @@ FeatureCurveNetwork read_network_for_mesh(const std::string& path, const LoadedM
 }
 
 labeling::LabelingProblem load_problem(const std::string& path) {
+    const NothingToFinish reading;
     if (path != "-") return labeling::read_problem(path);
     return labeling::parse_problem(read_text(path), labeling::ProblemFormat::Lab, "standard input");
 }

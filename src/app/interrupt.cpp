@@ -8,6 +8,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <thread>
 
@@ -21,9 +22,17 @@ std::stop_source& source() {
     return instance;
 }
 
+std::atomic<int> nothing_to_finish{0};
+
+[[noreturn]] void end_without_result() {
+    fmt::print(stderr, "\nscalefcn: interrupted before there was a result\n");
+    _exit(kNoResult);
+}
+
 void wait_for_signals(sigset_t signals) {
     int signal = 0;
     if (sigwait(&signals, &signal) != 0) return;
+    if (nothing_to_finish > 0) end_without_result();
     fmt::print(stderr,
                "\nscalefcn: interrupted, finishing with the best result so far "
                "(once more to quit at once)\n");
@@ -46,5 +55,12 @@ void watch_for_interrupts() {
 std::stop_token interrupt_token() { return source().get_token(); }
 
 bool is_interrupted() { return source().stop_requested(); }
+
+NothingToFinish::NothingToFinish() {
+    ++nothing_to_finish;
+    if (is_interrupted()) end_without_result();
+}
+
+NothingToFinish::~NothingToFinish() { --nothing_to_finish; }
 
 }  // namespace fcn::app

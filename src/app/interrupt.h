@@ -13,4 +13,14 @@ std::stop_token interrupt_token();
 
 bool is_interrupted();
 
+/// While one lives (a file is read before anything is made of it) there is nothing to finish: the
+/// first Ctrl-C ends the process at once, with kNoResult.
+class NothingToFinish {
+public:
+    NothingToFinish();
+    ~NothingToFinish();
+    NothingToFinish(const NothingToFinish&) = delete;
+    NothingToFinish& operator=(const NothingToFinish&) = delete;
+};
+
 }  // namespace fcn::app

@@ -22,11 +22,12 @@ struct Case {
     const char* name;
     LabelingProblem problem;
     Value optimum = 0;
+    int moments = 25;  ///< at which it is stopped
 };
 
 Case generated(const char* family, std::map<std::string, std::string> options) {
     labeling::GeneratedProblem made = labeling::generate_problem(family, options);
-    return {family, std::move(made.problem), made.optimum->value};
+    return {family, std::move(made.problem), made.optimum->value, 25};
 }
 
 /// Problems that take the solvers through presolve, many parts, cuts and a tree.
@@ -35,6 +36,8 @@ const std::vector<Case>& cases() {
         std::vector<Case> made;
         made.push_back(generated("chain", {{"labels", "600"}, {"reach", "6"}}));
         made.push_back(generated("planted", {{"cliques", "60"}, {"bonuses", "4"}}));
+        made.push_back(generated("chain", {{"labels", "25000"}, {"reach", "6"}}));
+        made.back().moments = 8;
         std::mt19937_64 engine(17);
         BundleOptions bundle;
         bundle.curves = 12;
@@ -42,7 +45,7 @@ const std::vector<Case>& cases() {
         bundle.crossings = 16;
         bundle.reach = 2;
         bundle.bonus = 60;
-        Case last{"bundle", curve_bundle(engine, bundle)};
+        Case last{"bundle", curve_bundle(engine, bundle), 0, 25};
         const SolveResult best = every_solver().find("branch-and-bound")->solve(last.problem);
         EXPECT_EQ(best.status, SolveStatus::Optimal);
         last.optimum = best.solution->value;
@@ -93,13 +96,12 @@ TEST(Limits, TheDefaultWorkYieldsToATimeLimit) {
 
 TEST_P(Interrupt, AtAnyMomentLeavesAValidAnswer) {
     const auto solver = every_solver().find(GetParam());
-    constexpr int kMoments = 25;
     constexpr std::int64_t kMostReadingsAfter = 30;
     for (const Case& c : cases()) {
         const std::int64_t whole = solve(*solver, c, -1).readings;
         std::mt19937_64 engine(2026);
         int interrupted = 0;
-        for (int k = 0; k < kMoments; ++k) {
+        for (int k = 0; k < c.moments; ++k) {
             // Half of the moments are early, where presolve and heuristics are.
             const std::int64_t at = pick(engine, 0, k % 2 == 0 ? whole - 1 : (whole - 1) / 8);
             const Interrupted run = solve(*solver, c, at);
@@ -122,7 +124,7 @@ TEST_P(Interrupt, AtAnyMomentLeavesAValidAnswer) {
             if (HasFailure()) return;
         }
         if (GetParam() != "greedy") {
-            EXPECT_GT(interrupted, kMoments / 2) << c.name;
+            EXPECT_GT(interrupted, c.moments / 2) << c.name;
         }
     }
 }
