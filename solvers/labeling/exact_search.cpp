@@ -28,6 +28,8 @@ namespace {
 constexpr std::int64_t kDefaultWork = 300'000'000;
 constexpr std::int64_t kPairsPerTick = 16;
 constexpr std::int64_t kReductionTicks = 100;      ///< per label
+constexpr std::int64_t kReductionShare = 8;        ///< of work or time, at most,
+constexpr std::int64_t kLeastReduction = 2000000;  ///< but so many ticks
 constexpr std::int64_t kFirstAllowance = 100'000;  ///< ticks per label of a part
 
 class ExactSearch {
@@ -157,9 +159,12 @@ private:
     }
 
     /// Where labels have many neighbours, reductions take long and find little: they get no more
-    /// work than what a sparse problem needs.
+    /// work than what a sparse problem needs, and on the largest problems no more than a share of
+    /// what there is.
     ReducedProblem reduced_problem() {
-        RunControl::Cap cap(control_, kReductionTicks * original_.label_count());
+        const std::int64_t share =
+            std::max(kLeastReduction, control_.ticks_left() / kReductionShare);
+        RunControl::Cap cap(control_, std::min(kReductionTicks * original_.label_count(), share));
         return reduce_problem(original_, control_, {}, guard());
     }
 

@@ -8,7 +8,7 @@
 namespace labeling {
 namespace {
 
-/// Reductions get so much of the work, at most.
+/// Reductions get so much of the work, at most; of the time, where that is less.
 constexpr std::int64_t kReductionShare = 8;
 constexpr Label kLargeProblem = 20000;  ///< labels
 constexpr std::size_t kLargeConflicts = 200'000;
@@ -53,7 +53,7 @@ ReducedSearchResult search_reduced(const LabelingProblem& problem, const SolveOp
     }
     std::optional<ReducedProblem> reduced;
     {
-        RunControl::Cap cap(control, control.work_left() / kReductionShare);
+        RunControl::Cap cap(control, control.ticks_left() / kReductionShare);
         try {
             reduced =
                 reduce_problem(problem, control, {}, given ? PassGuard(control) : PassGuard());

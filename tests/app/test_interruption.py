@@ -110,6 +110,21 @@ class Interruption(ProgramTest):
         self.assertIsNotNone(answer["value"])
         self.succeed("verify", "hard.lab", "best.sol")
 
+    def test_interrupt_while_reading_ends_at_once(self):
+        process = subprocess.Popen([PROGRAM, "solve", "-", "-o", "best.sol"], cwd=self.folder,
+                                   stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        # More than a pipe holds: when the last line has left, the program is reading.
+        process.stdin.write("p labeling 1 0 0 0\n" + "c a comment\n" * 100_000)
+        process.stdin.flush()
+        os.kill(process.pid, signal.SIGINT)
+        # The input has not ended, so an answer means that nothing was waited for.
+        self.assertEqual(process.wait(), NO_RESULT)
+        process.stdin.close()
+        self.assertIn("interrupted", process.stderr.read())
+        process.stderr.close()
+        self.assertFalse((self.folder / "best.sol").exists())
+
 
 def processor_ticks(pid):
     """User time of a process in clock ticks (1/100 s); 0 when it is gone."""
