@@ -1,10 +1,12 @@
 // The layout on which integers are chosen (Coudert-Osmont, Desobry, Heistermann, Bommes, Ray,
 // Sokolov 2023, "Quad mesh quantization without a T-mesh"): the mesh decimated to the vertices that
 // have to be grid points, in the metric of the seamless map. They collapse edges; here flat
-// vertices are taken out of an intrinsic triangulation, which changes no metric.
+// vertices are taken out of an intrinsic triangulation, which changes no metric. Hard curves divide
+// the surface into pieces with boundaries, whose straight sides lose their vertices, too.
 #include "meshing/coarse_layout.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "meshing/intrinsic_triangulation.h"
@@ -57,17 +59,27 @@ LinearForm difference(const std::map<int, double>& one, const std::map<int, doub
     return result;
 }
 
-/// Vertices that stay: singular ones, corners of the boundary, ends and joints of hard curves.
-std::vector<bool> grid_points(const Mesh& mesh, const MapProblem& problem, const CornerMap& map) {
-    std::vector<bool> result(mesh.n_vertices(), false);
-    for (const VertexHandle vertex : mesh.vertices()) {
-        if (mesh.is_isolated(vertex)) continue;
-        int hard = 0;
-        for (const EdgeHandle edge : mesh.ve_range(vertex))
-            hard += problem.is_hard[at(edge.idx())] && !mesh.is_boundary(edge);
-        const int regular = mesh.is_boundary(vertex) ? 2 : 4;
-        result[at(vertex.idx())] = hard > 0 || problem.cut.is_singular[at(vertex.idx())] != 0 ||
-                                   quarters_around(mesh, map, vertex) != regular;
+/// Sectors that stay: at singular vertices, and where boundaries and hard curves turn or end.
+std::vector<bool> grid_points(const Mesh& mesh, const MapProblem& problem, const CornerMap& map,
+                              const VertexSectors& sectors) {
+    std::vector<double> angle(at(sectors.count()), 0);
+    std::vector<bool> is_open(angle.size(), false);
+    for (const FaceHandle face : mesh.faces()) {
+        const auto& uv = map.uv[at(face.idx())];
+        HalfedgeHandle h = mesh.halfedge_handle(face);
+        for (std::size_t i = 0; i < 3; ++i, h = mesh.next_halfedge_handle(h)) {
+            const auto& names = sectors.of_corner[at(face.idx())];
+            const Vec2 a = uv[(i + 1) % 3] - uv[i], b = uv[(i + 2) % 3] - uv[i];
+            angle[at(names[i])] += std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
+            if (problem.is_hard[at(mesh.edge_handle(h).idx())])
+                is_open[at(names[i])] = is_open[at(names[(i + 1) % 3])] = true;
+        }
+    }
+    std::vector<bool> result(angle.size(), false);
+    for (std::size_t s = 0; s < result.size(); ++s) {
+        const long quarters = std::lround(angle[s] / (2 * std::atan(1.0)));
+        result[s] =
+            problem.cut.is_singular[at(sectors.vertex[s])] != 0 || quarters != (is_open[s] ? 2 : 4);
     }
     return result;
 }
@@ -77,8 +89,10 @@ std::vector<bool> grid_points(const Mesh& mesh, const MapProblem& problem, const
 CoarseLayout make_coarse_layout(const Mesh& mesh, const MapProblem& problem,
                                 const Eigen::VectorXd& free_values) {
     const Eigen::VectorXd values = problem.unknowns.basis * free_values;
-    const std::vector<bool> stays = grid_points(mesh, problem, corner_map(problem, values));
-    IntrinsicTriangulation triangulation(mesh, problem, values, problem.is_hard);
+    const VertexSectors sectors = vertex_sectors(mesh, problem.is_hard);
+    const std::vector<bool> stays =
+        grid_points(mesh, problem, corner_map(problem, values), sectors);
+    IntrinsicTriangulation triangulation(mesh, problem, sectors, values);
     // Scattered order, so that no triangle becomes long while others are short.
     std::vector<std::pair<std::uint32_t, int>> order;
     for (std::size_t v = 0; v < stays.size(); ++v)
@@ -105,8 +119,18 @@ CoarseLayout make_coarse_layout(const Mesh& mesh, const MapProblem& problem,
         const auto a = forms.of(triangulation.corner(slot));
         const auto b = forms.of(triangulation.corner(slot + 1));
         const auto c = forms.of(triangulation.corner(slot + 2));
+        int tip = slot;
+        double longest = -1;
+        for (int k = 0; k < 3; ++k) {
+            const Vec2 side = triangulation.corner(slot + (k + 1) % 3).position -
+                              triangulation.corner(slot + (k + 2) % 3).position;
+            if (side.norm() <= longest) continue;
+            longest = side.norm();
+            tip = slot + k;
+        }
         layout.triangles.push_back({{difference(b[0], a[0]), difference(b[1], a[1]),
-                                     difference(c[0], a[0]), difference(c[1], a[1])}});
+                                     difference(c[0], a[0]), difference(c[1], a[1])},
+                                    sectors.vertex[at(triangulation.corner(tip).vertex)]});
     }
     layout.vertex_count =
         static_cast<std::size_t>(std::count(stays.begin(), stays.end(), true)) + left.size();

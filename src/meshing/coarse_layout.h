@@ -14,6 +14,7 @@ using LinearForm = std::vector<std::pair<int, double>>;
 /// without folds for the same integers.
 struct LayoutTriangle {
     std::array<LinearForm, 4> forms;
+    int tip = -1;  ///< vertex of the mesh at the corner across from the longest side
 };
 
 struct CoarseLayout {

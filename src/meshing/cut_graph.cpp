@@ -8,6 +8,8 @@
 #include <limits>
 #include <queue>
 
+#include "meshing/vertex_sectors.h"
+
 namespace fcn {
 namespace {
 
@@ -202,43 +204,16 @@ private:
             cut_.fault = "the cut takes the surface apart";
     }
 
-    std::size_t corner(FaceHandle face, VertexHandle vertex) const {
-        const auto corners = face_vertices(mesh_, face);
-        return corners[0] == vertex ? 0 : (corners[1] == vertex ? 1 : 2);
-    }
-
-    /// One number a sector between cut edges, in the order of vertices and then counter-clockwise.
+    /// One copy a sector between cut edges.
     void number_copies() {
-        cut_.copies.assign(mesh_.n_faces(), {-1, -1, -1});
         cut_.vertex_count = static_cast<int>(mesh_.n_vertices());
         for (const FaceHandle face : mesh_.faces()) {
             const auto corners = face_vertices(mesh_, face);
             cut_.corners.push_back({corners[0].idx(), corners[1].idx(), corners[2].idx()});
         }
-        for (const VertexHandle vertex : mesh_.vertices()) {
-            if (mesh_.is_isolated(vertex)) continue;
-            HalfedgeHandle start = mesh_.halfedge_handle(vertex);
-            if (!mesh_.is_boundary(vertex)) {
-                for (const HalfedgeHandle h : mesh_.voh_range(vertex))
-                    if (is_cut(mesh_.edge_handle(h))) start = h;
-            } else if (mesh_.is_boundary(start)) {
-                start = next_around(start);  // the first face counter-clockwise
-            }
-            HalfedgeHandle h = start;
-            int copy = cut_.copy_count++;
-            do {
-                if (!mesh_.is_boundary(h)) {
-                    if (h != start && is_cut(mesh_.edge_handle(h))) copy = cut_.copy_count++;
-                    const FaceHandle face = mesh_.face_handle(h);
-                    cut_.copies[at(face.idx())][corner(face, vertex)] = copy;
-                }
-                h = next_around(h);
-            } while (h != start);
-        }
-    }
-    /// The next halfedge out of the same vertex, counter-clockwise.
-    HalfedgeHandle next_around(HalfedgeHandle h) const {
-        return mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
+        VertexSectors sectors = vertex_sectors(mesh_, {cut_.is_cut.begin(), cut_.is_cut.end()});
+        cut_.copy_count = sectors.count();
+        cut_.copies = std::move(sectors.of_corner);
     }
 
     bool is_chain_end(VertexHandle vertex) const {

@@ -16,14 +16,14 @@ constexpr double kLeastArea = 1e-9;  ///< twice, in quads
 }  // namespace
 
 IntrinsicTriangulation::IntrinsicTriangulation(const Mesh& mesh, const MapProblem& problem,
-                                               const Eigen::VectorXd& all_values,
-                                               const std::vector<bool>& is_hard)
-    : corners_(3 * mesh.n_faces()), sides_(3 * mesh.n_faces()), slot_of_(mesh.n_vertices(), -1) {
+                                               const VertexSectors& sectors,
+                                               const Eigen::VectorXd& all_values)
+    : corners_(3 * mesh.n_faces()), sides_(3 * mesh.n_faces()), slot_of_(at(sectors.count()), -1) {
     const CutMesh& cut = problem.cut;
     std::vector<int> slot_of_halfedge(mesh.n_halfedges(), -1);
     for (const FaceHandle face : mesh.faces()) {
         HalfedgeHandle h = mesh.halfedge_handle(face);
-        const auto& names = cut.corners[at(face.idx())];
+        const auto& names = sectors.of_corner[at(face.idx())];
         for (int i = 0; i < 3; ++i, h = mesh.next_halfedge_handle(h)) {
             const int slot = 3 * face.idx() + i;
             slot_of_halfedge[at(h.idx())] = slot;
@@ -34,21 +34,21 @@ IntrinsicTriangulation::IntrinsicTriangulation(const Mesh& mesh, const MapProble
     }
     for (const HalfedgeHandle h : mesh.halfedges()) {
         const int slot = slot_of_halfedge[at(h.idx())];
-        if (slot < 0) continue;
-        sides_[at(slot)].opposite = slot_of_halfedge[at(mesh.opposite_halfedge_handle(h).idx())];
-        sides_[at(slot)].is_hard = mesh.is_boundary(mesh.edge_handle(h)) ||
-                                   (!is_hard.empty() && is_hard[at(mesh.edge_handle(h).idx())]);
+        if (slot >= 0 && !problem.is_hard[at(mesh.edge_handle(h).idx())])
+            sides_[at(slot)].opposite =
+                slot_of_halfedge[at(mesh.opposite_halfedge_handle(h).idx())];
     }
     for (std::size_t c = 0; c < cut.chains.size(); ++c) {
         const int unknown = 2 * (cut.copy_count + static_cast<int>(c));
         translations_.emplace_back(all_values.segment<2>(unknown));
         for (const HalfedgeHandle h : cut.chains[c]) {
+            Side& side = sides_[at(slot_of_halfedge[at(h.idx())])];
+            if (side.opposite < 0) continue;
             SymbolicTransition crossing;
             crossing.turns = -cut.turns[at(h.idx())] & 3;
             crossing.terms.push_back({static_cast<int>(c), {1, 0}});
-            const int slot = slot_of_halfedge[at(h.idx())];
-            sides_[at(sides_[at(slot)].opposite)].crossing = inverse(crossing);
-            sides_[at(slot)].crossing = std::move(crossing);
+            sides_[at(side.opposite)].crossing = inverse(crossing);
+            side.crossing = std::move(crossing);
         }
     }
 }
@@ -71,7 +71,7 @@ void IntrinsicTriangulation::set_corner(int slot, Corner corner) {
 
 bool IntrinsicTriangulation::can_flip(int slot, double& quality, double least_at_origin) const {
     const Side& side = sides_[at(slot)];
-    if (side.is_hard || side.opposite < 0 || side.opposite / 3 == slot / 3) return false;
+    if (side.opposite < 0 || side.opposite / 3 == slot / 3) return false;
     const Vec2& a = corners_[at(slot)].position;
     const Vec2& b = corners_[at(next(slot))].position;
     const Vec2& c = corners_[at(previous(slot))].position;
@@ -126,8 +126,8 @@ void IntrinsicTriangulation::flip(int slot) {
     set_corner(g, d);
     set_corner(g + 1, b);
     set_corner(g + 2, c);
-    sides_[at(f + 1)] = {g + 2, {}, false};
-    sides_[at(g + 2)] = {f + 1, {}, false};
+    sides_[at(f + 1)] = {g + 2, {}};
+    sides_[at(g + 2)] = {f + 1, {}};
 }
 
 /// Slots out of a vertex, counter-clockwise; at a boundary from the first to the last face.
@@ -185,8 +185,7 @@ bool IntrinsicTriangulation::remove(int vertex) {
     for (const int slot : star) {
         faces.push_back(slot / 3);
         if (corners_[at(next(slot))].vertex == vertex ||
-            corners_[at(previous(slot))].vertex == vertex ||
-            (is_closed && sides_[at(slot)].is_hard))
+            corners_[at(previous(slot))].vertex == vertex)
             return false;
     }
     std::sort(faces.begin(), faces.end());
@@ -214,7 +213,7 @@ bool IntrinsicTriangulation::remove(int vertex) {
         }
     }
     for (int k = 0; k < 3; ++k) set_corner(f + k, rim[at(k)]);
-    if (!is_closed) sides_[at(f + 2)] = {-1, {}, true};
+    if (!is_closed) sides_[at(f + 2)] = {-1, {}};
     slot_of_[at(vertex)] = -1;
     return true;
 }

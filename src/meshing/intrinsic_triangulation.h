@@ -4,17 +4,20 @@
 
 #include "meshing/map_problem.h"
 #include "meshing/symbolic_transition.h"
+#include "meshing/vertex_sectors.h"
 
 namespace fcn {
 
 /// Triangles with straight edges in the metric of a seamless map, which need not be those of the
 /// mesh: edges can be flipped, and vertices without curvature taken out. Slot 3 f + i is the side
-/// of face f from its corner i to corner i + 1. Faces may be glued to themselves.
+/// of face f from its corner i to corner i + 1. Faces may be glued to themselves. Hard edges are
+/// boundaries of what lies on either side, so a vertex on them is one a sector.
 class IntrinsicTriangulation {
 public:
-    /// That of the mesh; the map must turn no face over.
+    /// That of the mesh, its vertices the sectors between hard edges; the map must turn no face
+    /// over.
     IntrinsicTriangulation(const Mesh& mesh, const MapProblem& problem,
-                           const Eigen::VectorXd& all_values, const std::vector<bool>& is_hard);
+                           const VertexSectors& sectors, const Eigen::VectorXd& all_values);
 
     struct Corner {
         int vertex = -1;
@@ -23,9 +26,8 @@ public:
         Vec2 position = Vec2::Zero();  ///< in the face's frame
     };
     struct Side {
-        int opposite = -1;            ///< slot; -1: boundary
+        int opposite = -1;            ///< slot; -1: boundary or hard
         SymbolicTransition crossing;  ///< from this face's frame to the opposite one
-        bool is_hard = false;
     };
 
     static int next(int slot) { return slot % 3 == 2 ? slot - 2 : slot + 1; }

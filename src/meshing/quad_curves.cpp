@@ -1,12 +1,14 @@
-// Which vertices of quads belong on which curves. A map follows a network softly (Gehre, Lim,
-// Kobbelt 2016, section 6.2), so lines of quads run beside the curves; quad_paths.h finds them, and
-// here they come onto the curve at distances between those that they had and even ones. Long curves
-// choose first. A vertex slides along the piece of its curve around its place, which keeps it off
-// other stretches of the same curve.
+// Which vertices of quads belong on which curves. Some lines of quads lie on curves from the
+// beginning (lines_on_curves.h); their vertices keep to them. Other curves are followed softly
+// (Gehre, Lim, Kobbelt 2016, section 6.2), so lines of quads run beside them; quad_paths.h finds
+// these, and here they come onto the curve at distances between those that they had and even ones.
+// Long curves choose first. A vertex slides along the piece of its curve around its place, which
+// keeps it off other stretches of the same curve.
 #include "meshing/quad_curves.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -19,6 +21,7 @@ constexpr double kStep = 0.1;       ///< between points of a curve, in edge leng
 constexpr int kWindow = 15;         ///< points that a vertex may slide either way
 constexpr double kLeastHalved = 4;  ///< edge lengths; shorter pieces are not halved
 constexpr double kLeastArc = 1;     ///< edge lengths; shorter arcs are left alone
+constexpr double kAtNode = 0.01;    ///< edge lengths
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -88,6 +91,37 @@ public:
         }
     }
 
+    /// Lines that are on arcs: their vertices slide along these, and stay at corners.
+    void keep_lines(const FeatureCurveNetwork& network) {
+        const LinesOnCurves& lines = options_.lines;
+        covered_.resize(network.arcs.size());
+        std::map<int, SampledCurve> curves;
+        const auto curve_of = [&](int a) -> const SampledCurve& {
+            const auto [it, is_new] = curves.try_emplace(a);
+            if (is_new)
+                it->second = sample_curve(polyline_of(network, a), kStep * options_.edge_length);
+            return it->second;
+        };
+        for (const QuadFeatureEdge& edge : lines.edges) {
+            if (!options_.is_free.empty() && options_.is_free[at(edge.arc)]) continue;
+            mesh_.feature_edges.push_back(edge);
+            const SampledCurve& curve = curve_of(edge.arc);
+            covered_[at(edge.arc)].resize(curve.points.size(), -1);
+            cover(curve, edge);
+            for (const int v : {edge.from, edge.to}) {
+                if (constraints_.curve[at(v)] != QuadConstraints::kFree) continue;
+                paths_.take(v);
+                const int own = lines.arc[at(v)];
+                if (lines.is_corner[at(v)] || own < 0) {
+                    pin(v, Vec3(mesh_.points[at(v)]));
+                } else {
+                    const SampledCurve& along = curve_of(own);
+                    slide(v, along, nearest_point(along, mesh_.points[at(v)]));
+                }
+            }
+        }
+    }
+
     void move_network(const FeatureCurveNetwork& network) {
         choose_nodes(network);
         std::vector<std::size_t> order(network.arcs.size());
@@ -109,6 +143,34 @@ private:
         return network.arcs[arc].kind != ArcKind::Boundary &&
                network.arcs[arc].samples.size() > 1 &&
                (options_.is_left_out.empty() || !options_.is_left_out[arc]);
+    }
+
+    static std::vector<Vec3> polyline_of(const FeatureCurveNetwork& network, int a) {
+        std::vector<Vec3> polyline;
+        for (const ArcSample& sample : network.arcs[at(a)].samples)
+            polyline.push_back(sample.position);
+        return polyline;
+    }
+    static int nearest_point(const SampledCurve& curve, const Vec3& p) {
+        const auto nearer = [&](const Vec3& a, const Vec3& b) {
+            return (a - p).squaredNorm() < (b - p).squaredNorm();
+        };
+        return static_cast<int>(std::min_element(curve.points.begin(), curve.points.end(), nearer) -
+                                curve.points.begin());
+    }
+    /// The points of a curve along an edge that lies on it, with the nearer end.
+    void cover(const SampledCurve& curve, const QuadFeatureEdge& edge) {
+        std::vector<int>& covered = covered_[at(edge.arc)];
+        const int a = nearest_point(curve, mesh_.points[at(edge.from)]);
+        const int b = nearest_point(curve, mesh_.points[at(edge.to)]);
+        const int way = static_cast<int>(curve.forward(a, b)), step = way < 0 ? -1 : 1;
+        const int count = curve.last();
+        for (int i = 0; i <= std::abs(way); ++i) {
+            int place = a + step * i;
+            if (curve.is_closed) place = ((place % count) + count) % count;
+            covered[at(place)] = 2 * i < std::abs(way) ? edge.from : edge.to;
+            if (curve.is_closed && place == 0) covered[at(count)] = covered[at(place)];
+        }
     }
 
     void pin(int v, const Vec3& p) {
@@ -155,13 +217,28 @@ private:
             node_vertices_[n] = v;
             paths_.take(v);
         }
+        const LinesOnCurves& lines = options_.lines;  // what is at nodes already
+        for (std::size_t n = 0; n < ends.size(); ++n)
+            for (std::size_t v = 0; v < lines.is_corner.size(); ++v)
+                if (lines.is_corner[v] && (mesh_.points[v] - network.nodes[n].position).norm() <
+                                              kAtNode * options_.edge_length)
+                    node_vertices_[n] = static_cast<int>(v);
     }
 
+    /// An arc, or what no line lies on of it.
     void move_arc(const FeatureCurveNetwork& network, int a) {
-        std::vector<Vec3> polyline;
-        for (const ArcSample& sample : network.arcs[at(a)].samples)
-            polyline.push_back(sample.position);
-        move_piece(network, a, polyline);
+        const std::vector<Vec3> polyline = polyline_of(network, a);
+        const std::vector<int> covered = covered_.empty() ? std::vector<int>() : covered_[at(a)];
+        if (covered.empty()) return move_piece(network, a, polyline);
+        const SampledCurve curve = sample_curve(polyline, kStep * options_.edge_length);
+        for (std::size_t i = 0; i < covered.size();) {
+            std::size_t end = i;
+            while (end < covered.size() && covered[end] < 0) ++end;
+            const auto first = curve.points.begin() + static_cast<std::ptrdiff_t>(i);
+            if (static_cast<double>(end - i) * kStep >= kLeastArc)
+                move_piece(network, a, {first, first + static_cast<std::ptrdiff_t>(end - i)});
+            i = end + 1;
+        }
     }
 
     /// A piece of an arc, or what can be moved of its halves.
@@ -219,6 +296,7 @@ private:
     QuadPaths paths_;
     QuadConstraints constraints_;
     std::vector<int> node_vertices_;
+    std::vector<std::vector<int>> covered_;  ///< per arc and point: a vertex on a line; -1: none
 };
 
 }  // namespace
@@ -228,6 +306,7 @@ QuadConstraints move_to_curves(QuadMesh& mesh, const Mesh& surface,
                                const QuadCurveOptions& options) {
     CurveMoves moves(mesh, options);
     moves.constrain_boundary(surface);
+    moves.keep_lines(network);
     moves.move_network(network);
     return moves.finish();
 }

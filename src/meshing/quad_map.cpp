@@ -26,6 +26,7 @@ constexpr int kMostIntegers = 1500;     ///< their matrices are dense
 constexpr int kStiffRings = 10;         ///< around singular vertices
 constexpr double kFirstStep = 0.1;      ///< of the way from the seamless map to the integers
 constexpr int kSeamlessAttempts = 5;    ///< at a seamless map that winds as the field does
+constexpr int kHardAttempts = 2;        ///< the same with hard edges inside
 constexpr double kTightStep = 0.02;     ///< below, everything moves to make room
 constexpr double kLeastStep = 0.001;
 constexpr int kRelaxingSteps = 15;
@@ -104,7 +105,8 @@ private:
         const std::vector<bool> none(is_integer().size(), false);
         const VectorXd zero = VectorXd::Zero(static_cast<int>(none.size()));
         std::vector<double> stiffness(mesh_.n_faces(), 1);
-        for (int attempt = 0; attempt < kSeamlessAttempts; ++attempt) {
+        const int attempts = has_hard_edges() ? kHardAttempts : kSeamlessAttempts;
+        for (int attempt = 0; attempt < attempts; ++attempt) {
             const QuadraticEnergy stiff =
                 attempt == 0 ? energy_ : reduced(alignment_energy(problem_, stiffness), problem_);
             const VectorXd values = minimum(stiff, none, zero);
@@ -129,7 +131,30 @@ private:
             if (untangled.turned_over + windings.size() == 0) break;
             stiffen(values, windings, stiffness);
         }
-        return true;
+        if (!has_hard_edges() || statistics().seamless_after + statistics().seamless_windings == 0)
+            return true;
+        result_.fault = "no seamless map with these hard edges";
+        blame(seamless_);
+        return false;
+    }
+
+    bool has_hard_edges() const {
+        return std::any_of(guidance_.is_hard.begin(), guidance_.is_hard.end(),
+                           [](std::uint8_t hard) { return hard != 0; });
+    }
+    /// Where the fault is: at what has no area in the layout, or else what is turned over or winds
+    /// otherwise than the field.
+    void blame(const VectorXd& values) {
+        auto& where = result_.fault_vertices;
+        where = collapsed_;
+        for (const VertexHandle vertex : wrong_windings(map_of(values)))
+            where.push_back(vertex.idx());
+        const std::vector<double> dets = map_determinants(problem_, values);
+        for (std::size_t f = 0; f < dets.size(); ++f)
+            if (!(dets[f] > 0))
+                for (const int vertex : problem_.cut.corners[f]) where.push_back(vertex);
+        std::sort(where.begin(), where.end());
+        where.erase(std::unique(where.begin(), where.end()), where.end());
     }
 
     /// More weight for what is turned over in the nearest map, and near wrong windings (Bommes,
@@ -195,7 +220,9 @@ private:
             layout = make_coarse_layout(mesh_, problem_, seamless_);
         statistics().layout_triangles = static_cast<int>(layout.triangles.size());
         const Quantisation chosen = quantise(integers, layout);
-        statistics().collapsed_triangles = chosen.collapsed;
+        statistics().collapsed_triangles = chosen.collapsed.size();
+        for (const int t : chosen.collapsed)
+            collapsed_.push_back(layout.triangles[static_cast<std::size_t>(t)].tip);
         target_ = seamless_;
         for (std::size_t i = 0; i < integers.unknowns.size(); ++i)
             target_[integers.unknowns[i]] = chosen.integers[static_cast<int>(i)];
@@ -222,7 +249,7 @@ private:
         integral_ = untangle(problem_, seamless_ + way_, is_integer(), options);
         statistics().newton_steps += integral_.iterations;
         statistics().quantised_before = integral_.turned_over_before;
-        if (!is_sound(integral_)) walk_to_integers();
+        if (!is_sound(integral_) && (!has_hard_edges() || collapsed_.empty())) walk_to_integers();
         statistics().quantised_after = integral_.turned_over;
     }
 
@@ -271,6 +298,7 @@ private:
             statistics().newton_steps += tried.iterations;
             ++statistics().integer_steps;
             if (!is_sound(tried)) {
+                stuck_ = tried.values;
                 step /= 2;
                 if (step < kTightStep && !is_relaxed) {
                     const UntanglingResult relaxed =
@@ -308,6 +336,7 @@ private:
             else
                 result_.fault = corner_map_faults(mesh_, result_.map).message();
         }
+        if (has_fault()) blame(stuck_.size() > 0 ? stuck_ : integral_.values);
         if (has_fault())
             result_.fault += "; before integers " + std::to_string(statistics().seamless_after) +
                              " turned over, " + std::to_string(statistics().seamless_windings) +
@@ -324,7 +353,9 @@ private:
     MapProblem problem_;
     QuadraticEnergy energy_;
     VectorXd seamless_, target_;
-    VectorXd way_;  ///< from the one to the other
+    std::vector<int> collapsed_;  ///< tips of triangles of the layout
+    VectorXd way_;                ///< from the one to the other
+    VectorXd stuck_;              ///< where the last step of that way failed
     UntanglingResult integral_;
     QuadMapResult result_;
     Stopwatch watch_;

@@ -22,14 +22,16 @@ struct QuadMapStatistics {
 };
 
 struct QuadMapResult {
-    CornerMap map;      ///< quads can be read from it unless there is a fault
-    std::string fault;  ///< why there is none; empty: there is one
+    CornerMap map;                    ///< quads can be read from it unless there is a fault
+    std::string fault;                ///< why there is none; empty: there is one
+    std::vector<int> fault_vertices;  ///< where that is, ascending; may be empty
     QuadMapStatistics statistics;
 };
 
 /// The map of a mesh to the plane whose unit grid follows the field: seamless and integral without
 /// rounding, keeping orientation, boundaries and hard edges on grid lines; around each vertex as
-/// many quads as the field's index asks for. Deterministic.
+/// many quads as the field's index asks for. With hard edges inside it is given up earlier.
+/// Deterministic.
 QuadMapResult make_quad_map(const Mesh& mesh, const CrossField& field,
                             const QuadMapOptions& options);
 

@@ -17,7 +17,6 @@
 #include "meshing/quad_curves.h"
 #include "meshing/quad_field.h"
 #include "meshing/quad_holes.h"
-#include "meshing/quad_map.h"
 #include "meshing/quad_smoothing.h"
 #include "meshing/quad_tips.h"
 #include "meshing/singularity_refinement.h"
@@ -29,12 +28,13 @@ constexpr int kAttempts = 4;
 constexpr double kShrinking = 0.9;
 /// Triangles of the domain are this share of a quad's edge, longer where there were too many.
 constexpr double kFineShare = 1.0 / 3, kCoarseShare = 0.5;
-constexpr double kCurveWeight = 1;  ///< of alignment in the map, against the field's
-constexpr double kFilledLoop = 3;   ///< in edge lengths: such loops are closed for the map
-constexpr double kLeash = 0.5;      ///< in edge lengths, of smoothing: the map spread the vertices
+constexpr double kFilledLoop = 3;  ///< in edge lengths: such loops are closed for the map
+constexpr double kLeash = 0.5;     ///< in edge lengths, of smoothing: the map spread the vertices
 constexpr int kReleasedRings = 3;
 constexpr int kCurveRounds = 4;
-constexpr double kLeastJacobian = 0.2;  ///< of quads; worse ones are bad
+constexpr double kLeastJacobian = 0.2;   ///< of quads; worse ones are bad
+constexpr double kWorstJacobian = 0.02;  ///< of quads on lines of the grid
+constexpr double kFewCurves = 0.97;      ///< of the edges on folds that should be lines of the grid
 constexpr double kManyTriangles = 60000;
 
 class Stopwatch {
@@ -90,32 +90,49 @@ public:
         attempt.field = watch.lap();
         attempt.singularities = static_cast<int>(field.singularities.size());
         if (!field.failure.empty()) return fail("field", field.failure);
-        RefinedField refined = refine_singularities(domain, field);
-        domain = std::move(refined.domain);
-        field = std::move(refined.design);
         attempt.step = "map";
-        const FieldMap map = steps_.map(domain, field, edge_length);
+        FieldMap map = make_map(domain, field, edge_length);
+        attempt.singularities = static_cast<int>(field.singularities.size());
         attempt.map = watch.lap();
         if (!map.failure.empty()) return fail("map", map.failure);
-        attempt.step = "extraction";
-        QuadExtraction extraction = steps_.extraction(domain.mesh, map.map);
-        attempt.extraction = watch.lap();
-        if (!extraction.fault.empty()) return fail("extraction", extraction.fault);
-        const int closed = static_cast<int>(domain.filled_holes.size());
-        if (open_holes(extraction.mesh, domain.filled_holes) < closed)
-            return fail("extraction", "short boundary loops that cannot be opened again");
-        attempt.step = "smoothing";
-        const int inverted = smooth(extraction.mesh, edge_length);
-        attempt.smoothing = watch.lap();
-        if (inverted > 0) return fail("smoothing", std::to_string(inverted) + " inverted corners");
-        label_faces(extraction.mesh);
+        QuadMesh mesh = read_quads(domain, map, attempt);
+        if (!attempt.reason.empty() && !map.hard_edges.empty()) {
+            attempt.reason.clear();
+            const FieldMap soft = steps_.soft_map(domain, field, edge_length);
+            attempt.map += watch.lap();
+            if (!soft.failure.empty()) return fail("map", soft.failure);
+            mesh = read_quads(domain, soft, attempt);
+        }
+        if (!attempt.reason.empty()) return {};
+        label_faces(mesh);
         attempt.step.clear();
         quads.curve_deviation_degrees = field.curve_deviation_degrees;
         quads.field = quad_field(domain, field);
-        return std::move(extraction.mesh);
+        return mesh;
     }
 
 private:
+    /// The quads of a map, on curves and surface; the reason in the attempt if there are none.
+    QuadMesh read_quads(const QuadDomain& domain, const FieldMap& map, QuadAttempt& attempt) const {
+        Stopwatch watch;
+        attempt.step = "extraction";
+        QuadExtraction extraction = steps_.extraction(domain.mesh, map.map);
+        attempt.extraction += watch.lap();
+        attempt.reason = extraction.fault;
+        if (!attempt.reason.empty()) return {};
+        const int closed = static_cast<int>(domain.filled_holes.size());
+        if (open_holes(extraction.mesh, domain.filled_holes) < closed) {
+            attempt.reason = "short boundary loops that cannot be opened again";
+            return {};
+        }
+        attempt.step = "smoothing";
+        const LinesOnCurves lines = lines_on_curves(domain, map.hard_edges, extraction);
+        const int inverted = smooth(extraction.mesh, lines, attempt.edge_length);
+        attempt.smoothing += watch.lap();
+        if (inverted > 0) attempt.reason = std::to_string(inverted) + " inverted corners";
+        return std::move(extraction.mesh);
+    }
+
     QuadDomain make_domain(double edge_length) const {
         QuadDomainOptions options;
         options.edge_length = domain_edge_length(area_, edge_length);
@@ -131,12 +148,35 @@ private:
         return steps_.field(domain, options);
     }
 
+    /// The map and the domain and field that it is of. Where curves gave way, or there is no map,
+    /// singularities are moved out of the way and it is tried once more.
+    FieldMap make_map(QuadDomain& domain, FieldDesign& field, double edge_length) const {
+        RefinedField refined = refine_singularities(domain, field);
+        FieldMap map = steps_.map(refined.domain, refined.design, edge_length);
+        FieldDesign cleared = field;
+        if ((map.kept_share < kFewCurves || !map.failure.empty()) &&
+            steps_.clearance(domain, cleared, edge_length) > 0) {
+            RefinedField other = refine_singularities(domain, cleared);
+            FieldMap second = steps_.map(other.domain, other.design, edge_length);
+            const bool is_better = !map.failure.empty() || second.kept_share > map.kept_share;
+            if (second.failure.empty() && is_better) {
+                refined = std::move(other);
+                map = std::move(second);
+            }
+        }
+        domain = std::move(refined.domain);
+        field = std::move(refined.design);
+        return map;
+    }
+
     /// Returns the number of inverted corners. Arcs that spoil quads are left out.
-    int smooth(QuadMesh& mesh, double edge_length) const {
+    int smooth(QuadMesh& mesh, const LinesOnCurves& lines, double edge_length) const {
         if (steps_.smoothing) return steps_.smoothing(mesh);
         QuadCurveOptions curves;
         curves.edge_length = edge_length;
         curves.is_left_out.assign(network_.arcs.size(), options_.guidance == QuadGuidance::None);
+        curves.lines = lines;
+        curves.is_free.assign(network_.arcs.size(), false);
         QuadSmoothingOptions smoothing;
         smoothing.edge_length = edge_length;
         smoothing.rounds = options_.smoothing_rounds;
@@ -155,9 +195,11 @@ private:
                 smooth_quads(trial, constraints, reference_, free);
             }
             if (round < kCurveRounds && leave_out_bad_arcs(trial, curves)) continue;
-            if (round == kCurveRounds)
+            if (round == kCurveRounds) {
                 curves.is_left_out.assign(network_.arcs.size(), true);
-            else {
+                if (count_inverted_corners(trial) > 0)
+                    curves.is_free.assign(network_.arcs.size(), true);
+            } else {
                 QuadTipOptions tips;
                 tips.smoothing = smoothing;
                 if (count_inverted_corners(trial) == 0)
@@ -186,18 +228,21 @@ private:
         smooth_quads(mesh, constraints, reference_, smoothing);
     }
 
-    /// Arcs on whose vertices there is a bad quad; whether there is one.
+    /// No lines are moved any more onto arcs on whose vertices there is a bad quad; where there is
+    /// a worse one, those that lay there from the beginning come free. Whether anything changes.
     bool leave_out_bad_arcs(const QuadMesh& mesh, QuadCurveOptions& curves) const {
         const std::vector<bool> is_bad = vertices_of_bad_quads(mesh, kLeastJacobian);
-        bool is_any = false;
+        const std::vector<bool> is_worse = vertices_of_bad_quads(mesh, kWorstJacobian);
+        const std::vector<bool> before[] = {curves.is_left_out, curves.is_free};
         for (const QuadFeatureEdge& edge : mesh.feature_edges) {
-            if (!is_bad[static_cast<std::size_t>(edge.from)] &&
-                !is_bad[static_cast<std::size_t>(edge.to)])
-                continue;
-            curves.is_left_out[static_cast<std::size_t>(edge.arc)] = true;
-            is_any = true;
+            const auto arc = static_cast<std::size_t>(edge.arc);
+            for (const int v : {edge.from, edge.to}) {
+                if (is_worse[static_cast<std::size_t>(v)] && before[0][arc])
+                    curves.is_free[arc] = true;
+                if (is_bad[static_cast<std::size_t>(v)]) curves.is_left_out[arc] = true;
+            }
         }
-        return is_any;
+        return curves.is_left_out != before[0] || curves.is_free != before[1];
     }
 
     void label_faces(QuadMesh& mesh) const {
@@ -227,15 +272,6 @@ private:
 };
 
 }  // namespace
-
-FieldMap map_field(const QuadDomain& domain, const FieldDesign& field, double edge_length) {
-    QuadMapOptions options;
-    options.edge_length = edge_length;
-    options.soft_weight = domain.edge_weight;
-    for (double& weight : options.soft_weight) weight *= kCurveWeight;
-    QuadMapResult result = make_quad_map(domain.mesh, field.field, options);
-    return {std::move(result.map), std::move(result.fault)};
-}
 
 std::string FieldQuads::reason() const {
     std::string text;

@@ -5,20 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "meshing/field_design.h"
+#include "meshing/field_map.h"
 #include "meshing/quad_extraction.h"
 #include "meshing/remesh_quads.h"
 
 namespace fcn {
-
-/// A map for quads of a domain and a field, or the reason that there is none.
-struct FieldMap {
-    CornerMap map;
-    std::string failure;  ///< empty: there is one
-};
-
-/// The map whose grid follows the field and, softly, the network.
-FieldMap map_field(const QuadDomain& domain, const FieldDesign& field, double edge_length);
 
 /// The steps from a surface to quads. Each can be replaced, so that every failure can be seen.
 struct QuadSteps {
@@ -28,6 +19,12 @@ struct QuadSteps {
     std::function<FieldDesign(const QuadDomain&, const FieldOptions&)> field = design_field;
     std::function<FieldMap(const QuadDomain&, const FieldDesign&, double edge_length)> map =
         map_field;
+    /// Where quads of the first map fail that has lines on curves.
+    std::function<FieldMap(const QuadDomain&, const FieldDesign&, double edge_length)> soft_map =
+        map_field_softly;
+    /// Moves singularities away from curves; returns how many. Asked where curves gave way.
+    std::function<int(const QuadDomain&, FieldDesign&, double edge_length)> clearance =
+        clear_network;
     std::function<QuadExtraction(const Mesh&, const CornerMap&)> extraction = extract_quads;
     std::function<int(QuadMesh&)> smoothing;  ///< returns the number of inverted corners
 };

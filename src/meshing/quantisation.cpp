@@ -62,7 +62,8 @@ public:
         const VectorXd off = chosen_ - optimum_;
         result.cost = off.dot(gram_ * off) / 2;
         for (std::size_t t = 0; t < constants_.size(); ++t)
-            if (!(determinant(sides(t, chosen_)) > 0.5)) ++result.collapsed;
+            if (!(determinant(sides(t, chosen_)) > 0.5))
+                result.collapsed.push_back(static_cast<int>(t));
         return result;
     }
 

@@ -19,9 +19,9 @@ struct IntegerEnergy {
 IntegerEnergy integer_energy(const QuadraticEnergy& energy, const std::vector<bool>& is_integer);
 
 struct Quantisation {
-    Eigen::VectorXd integers;   ///< of IntegerEnergy::unknowns
-    double cost = 0;            ///< the energy's
-    std::size_t collapsed = 0;  ///< triangles of the layout that are not positive
+    Eigen::VectorXd integers;    ///< of IntegerEnergy::unknowns
+    double cost = 0;             ///< the energy's
+    std::vector<int> collapsed;  ///< triangles of the layout that are not positive
     int rounding_steps = 0, moves = 0;
 };
 
