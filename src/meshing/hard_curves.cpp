@@ -262,9 +262,9 @@ private:
                 double gone = 0;
                 for (std::size_t k = i;;) {
                     if (direction < 0 ? k == 0 : k + 1 == along.size()) break;
+                    if (gone > 0 && has_room(along[i], along[k])) break;
                     const std::size_t edge = direction < 0 ? k - 1 : k;
                     k = direction < 0 ? k - 1 : k + 1;
-                    if (gone > 0 && has_room(along[i], along[k])) break;
                     is_gone[edge] = true;
                     gone += length(curve.edges[edge]);
                 }

@@ -26,7 +26,7 @@ constexpr int kMostIntegers = 1500;     ///< their matrices are dense
 constexpr int kStiffRings = 10;         ///< around singular vertices
 constexpr double kFirstStep = 0.1;      ///< of the way from the seamless map to the integers
 constexpr int kSeamlessAttempts = 5;    ///< at a seamless map that winds as the field does
-constexpr int kHardAttempts = 2;        ///< the same with hard edges inside
+constexpr int kHardAttempts = 2;        ///< the same with hard edges inside, which can give way
 constexpr double kTightStep = 0.02;     ///< below, everything moves to make room
 constexpr double kLeastStep = 0.001;
 constexpr int kRelaxingSteps = 15;
@@ -106,6 +106,8 @@ private:
         const VectorXd zero = VectorXd::Zero(static_cast<int>(none.size()));
         std::vector<double> stiffness(mesh_.n_faces(), 1);
         const int attempts = has_hard_edges() ? kHardAttempts : kSeamlessAttempts;
+        UntanglingOptions untangling;
+        untangling.is_all_moving = !has_hard_edges();
         for (int attempt = 0; attempt < attempts; ++attempt) {
             const QuadraticEnergy stiff =
                 attempt == 0 ? energy_ : reduced(alignment_energy(problem_, stiffness), problem_);
@@ -115,7 +117,7 @@ private:
                 return false;
             }
             statistics().solving += watch_.lap();
-            const UntanglingResult untangled = untangle(problem_, values, none);
+            const UntanglingResult untangled = untangle(problem_, values, none, untangling);
             const auto windings = wrong_windings(map_of(untangled.values));
             statistics().newton_steps += untangled.iterations;
             statistics().untangling += watch_.lap();

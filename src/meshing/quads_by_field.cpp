@@ -4,7 +4,7 @@
 // (quad_extraction.h; Ebke, Bommes, Campen, Kobbelt 2013). Each step says whether it succeeded.
 // What it may fail of is mostly that singularities are too close for quads of the length, so the
 // next attempt takes a shorter one. In the end vertices move onto curves and the surface; where
-// curves spoil quads they are left alone, since they are no more than guides.
+// curves spoil quads they are left alone.
 #include "meshing/quads_by_field.h"
 
 #include <algorithm>

@@ -125,6 +125,58 @@ TEST(QuadsByField, FallsBackWhicheverStepFails) {
     expect_fallback(steps, "smoothing", "7 inverted corners");
 }
 
+TEST(QuadsByField, TakesTheSoftMapWhereQuadsOfTheFirstFail) {
+    QuadSteps steps = cube_steps(3);
+    const auto map = steps.map;
+    steps.soft_map = map;
+    steps.map = [map](const QuadDomain& domain, const FieldDesign& field, double edge_length) {
+        FieldMap result = map(domain, field, edge_length);
+        std::swap(result.map.uv[5][1], result.map.uv[5][2]);
+        result.hard_edges = {0};
+        return result;
+    };
+    steps.domain = [domain = steps.domain](const LoadedMesh& mesh,
+                                           const FeatureCurveNetwork& network,
+                                           const QuadDomainOptions& options) {
+        QuadDomain result = domain(mesh, network, options);
+        result.edge_arc.assign(result.mesh.n_edges(), -1);
+        return result;
+    };
+    const FieldQuads quads = quads_by_field(test::cube(4), {}, cube_options(), steps);
+    EXPECT_TRUE(quads.is_done());
+    ASSERT_EQ(quads.attempts.size(), 1u);  // of the length that was asked for
+    EXPECT_EQ(quads.mesh.faces.size(), 54u);
+}
+
+TEST(QuadsByField, MovesSingularitiesWhereCurvesGaveWay) {
+    QuadSteps steps = cube_steps(3);
+    int maps = 0, clearances = 0;
+    const auto map = steps.map;
+    steps.map = [&](const QuadDomain& d, const FieldDesign& field, double edge_length) {
+        FieldMap result = map(d, field, edge_length);
+        result.kept_share = ++maps == 1 ? 0.5 : 0.25;  // no better: the first stays
+        return result;
+    };
+    steps.clearance = [&](const QuadDomain&, FieldDesign&, double) { return ++clearances; };
+    EXPECT_TRUE(quads_by_field(test::cube(4), {}, cube_options(), steps).is_done());
+    EXPECT_EQ(maps, 2);
+    EXPECT_EQ(clearances, 1);
+    maps = clearances = 0;
+    steps.map = [&](const QuadDomain& d, const FieldDesign& field, double edge_length) {
+        return ++maps == 1 ? FieldMap{{}, "no map"} : map(d, field, edge_length);
+    };
+    EXPECT_TRUE(quads_by_field(test::cube(4), {}, cube_options(), steps).is_done());
+    EXPECT_EQ(maps, 2);
+    maps = clearances = 0;
+    steps.map = [&](const QuadDomain& d, const FieldDesign& field, double edge_length) {
+        ++maps;
+        return map(d, field, edge_length);
+    };
+    EXPECT_TRUE(quads_by_field(test::cube(4), {}, cube_options(), steps).is_done());
+    EXPECT_EQ(maps, 1);
+    EXPECT_EQ(clearances, 0);
+}
+
 TEST(QuadsByField, IsTheFirstTier) {
     const LoadedMesh cube = test::cube(4, true);
     const QuadResult result = remesh_quads(cube, {}, cube_options(), cube_steps(3));
