@@ -91,13 +91,16 @@ public:
         attempt.singularities = static_cast<int>(field.singularities.size());
         if (!field.failure.empty()) return fail("field", field.failure);
         attempt.step = "map";
-        FieldMap map = make_map(domain, field, edge_length);
+        const RefinedField first = refine_singularities(domain, field);
+        FieldMap map = make_map(first, domain, field, edge_length);
         attempt.singularities = static_cast<int>(field.singularities.size());
         attempt.map = watch.lap();
         if (!map.failure.empty()) return fail("map", map.failure);
         QuadMesh mesh = read_quads(domain, map, attempt);
         if (!attempt.reason.empty() && !map.hard_edges.empty()) {
             attempt.reason.clear();
+            domain = first.domain;
+            field = first.design;
             const FieldMap soft = steps_.soft_map(domain, field, edge_length);
             attempt.map += watch.lap();
             if (!soft.failure.empty()) return fail("map", soft.failure);
@@ -148,11 +151,12 @@ private:
         return steps_.field(domain, options);
     }
 
-    /// The map and the domain and field that it is of. Where curves gave way, or there is no map,
+    /// The map, and the domain and field that it is of. Where curves gave way, or there is no map,
     /// singularities are moved out of the way and it is tried once more.
-    FieldMap make_map(QuadDomain& domain, FieldDesign& field, double edge_length) const {
-        RefinedField refined = refine_singularities(domain, field);
-        FieldMap map = steps_.map(refined.domain, refined.design, edge_length);
+    FieldMap make_map(const RefinedField& first, QuadDomain& domain, FieldDesign& field,
+                      double edge_length) const {
+        FieldMap map = steps_.map(first.domain, first.design, edge_length);
+        RefinedField best = first;
         FieldDesign cleared = field;
         if ((map.kept_share < kFewCurves || !map.failure.empty()) &&
             steps_.clearance(domain, cleared, edge_length) > 0) {
@@ -160,12 +164,12 @@ private:
             FieldMap second = steps_.map(other.domain, other.design, edge_length);
             const bool is_better = !map.failure.empty() || second.kept_share > map.kept_share;
             if (second.failure.empty() && is_better) {
-                refined = std::move(other);
+                best = std::move(other);
                 map = std::move(second);
             }
         }
-        domain = std::move(refined.domain);
-        field = std::move(refined.design);
+        domain = std::move(best.domain);
+        field = std::move(best.design);
         return map;
     }
 
