@@ -8,7 +8,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIZE, SMALL = "400x320", "312x250"
 LINE = "2"
-MODELS = {"octaflower": ["--resolution", "0.01"], "gear": ["--resolution", "0.01"]}
+MODELS = {"octaflower": ["--resolution", "0.01"], "gear": ["--resolution", "0.01"], "ribs": [], "skyscraper": []}
 
 
 class Workshop:
