@@ -116,7 +116,7 @@ std::string compare_topology(const QuadMesh& mesh, const Mesh& domain) {
 
 }  // namespace
 
-QuadExtraction extract_quads(const Mesh& domain, const CornerMap& map) {
+QuadExtraction extract_quads(const Mesh& domain, const CornerMap& map, const RowOptions& options) {
     QuadExtraction result;
     const GridMap grid(domain, map);
     result.fault = grid.fault();
@@ -128,7 +128,8 @@ QuadExtraction extract_quads(const Mesh& domain, const CornerMap& map) {
     std::vector<std::array<int, 4>> sides;
     result.fault = close_faces(vertices, links, sides);
     if (!result.fault.empty()) return result;
-    DividedRows rows = divide_rows(grid, vertices, links.owners, links.arrivals, sides);
+    DividedRows rows =
+        divide_rows(grid, vertices, links.owners, links.arrivals, sides, domain, options);
     QuadMesh mesh;
     mesh.faces = std::move(rows.faces);
     result.divided_rows = rows.divided;

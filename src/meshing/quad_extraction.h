@@ -6,6 +6,7 @@
 #include "geometry/mesh.h"
 #include "meshing/corner_map.h"
 #include "meshing/quad_mesh.h"
+#include "meshing/quad_rows.h"
 
 namespace fcn {
 
@@ -23,6 +24,6 @@ struct QuadExtraction {
 /// boundaries, all without rounding; if it does not, that is the fault. The mesh is then
 /// all quads, manifold, and of the domain's topology, or there is a fault. Linear in the faces and
 /// quads. Deterministic. Source: Ebke, Bommes, Campen, Kobbelt 2013.
-QuadExtraction extract_quads(const Mesh& domain, const CornerMap& map);
+QuadExtraction extract_quads(const Mesh& domain, const CornerMap& map, const RowOptions& rows = {});
 
 }  // namespace fcn

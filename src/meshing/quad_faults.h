@@ -18,4 +18,19 @@ struct QuadDistance {
 QuadDistance find_far_places(const QuadMesh& mesh, const Mesh& input,
                              const ReferenceSurface& reference, double tolerance, double spacing);
 
+/// Vertices of a mesh and points of its edges `spacing` apart.
+std::vector<Vec3> sample_points(const Mesh& mesh, double spacing);
+
+/// A place where quads and surface are far from each other: on the surface, and the quad there.
+struct FarPoint {
+    double distance = 0;
+    Vec3 position = Vec3::Zero();
+    int quad = -1;
+};
+
+/// Both ways, from `points` of the surface to the quads and from points of the quads to the
+/// surface: what is farther than `least`, the farthest first.
+std::vector<FarPoint> far_points(const QuadMesh& mesh, const std::vector<Vec3>& points,
+                                 const ReferenceSurface& reference, double least);
+
 }  // namespace fcn

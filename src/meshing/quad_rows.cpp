@@ -16,14 +16,23 @@ namespace {
 
 constexpr int kMostParts = 4;
 constexpr int kMostRounds = 200;
+constexpr int kSamples = 4;  ///< of a part of a quad, in either direction
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class RowDivision {
 public:
     RowDivision(const GridMap& map, const GridVertices& vertices, const std::vector<int>& owners,
-                const std::vector<int>& arrivals, const std::vector<std::array<int, 4>>& sides)
-        : map_(map), vertices_(vertices), owners_(owners), arrivals_(arrivals), sides_(sides) {
+                const std::vector<int>& arrivals, const std::vector<std::array<int, 4>>& sides,
+                const Mesh& domain, const RowOptions& options)
+        : map_(map),
+          walk_(map),
+          vertices_(vertices),
+          owners_(owners),
+          arrivals_(arrivals),
+          sides_(sides),
+          domain_(domain),
+          options_(options) {
         find_rows();
     }
 
@@ -35,6 +44,7 @@ public:
             for (const int row : rows) ++parts_[at(row)];
             build();
         }
+        if (options_.tolerance > 0) follow_surface();
         for (std::size_t row = 0; row < parts_.size(); ++row)
             result_.divided += parts_[row] > 1 && row_of_[row] == static_cast<int>(row);
         place_vertices();
@@ -177,24 +187,115 @@ private:
         return rows;
     }
 
+    /// The point i / m along the line out of a port and j / n to its left.
+    SurfacePoint point_at(int p, int i, int m, int j, int n) const {
+        const GridPort& port = vertices_.port(p);
+        GridPlace place{port.face, port.image, port.direction};
+        const auto go = [&](int part, int count, int turn) {
+            if (part == 0) return;
+            place.direction = (place.direction + turn) & 3;
+            if (const auto there = walk_.go(place, map_.unit() / count * part)) place = *there;
+        };
+        go(i, m, 0);
+        go(j, n, 1);
+        SurfacePoint point;
+        point.face = place.face;
+        point.barycentric = map_.barycentric(place.face, place.image);
+        return point;
+    }
+
     void place_vertices() {
         for (int v = 0; v < vertices_.count(); ++v) result_.places.push_back(vertices_.place(v));
-        const GridWalk walk(map_);
-        for (const auto& [p, i, m, j, n] : inner_) {
-            const GridPort& port = vertices_.port(p);
-            GridPlace place{port.face, port.image, port.direction};
-            const auto go = [&](int part, int count, int turn) {
-                if (part == 0) return;
-                place.direction = (place.direction + turn) & 3;
-                if (const auto there = walk.go(place, map_.unit() / count * part)) place = *there;
-            };
-            go(i, m, 0);
-            go(j, n, 1);
-            SurfacePoint point;
-            point.face = place.face;
-            point.barycentric = map_.barycentric(place.face, place.image);
-            result_.places.push_back(point);
+        for (const auto& [p, i, m, j, n] : inner_)
+            result_.places.push_back(point_at(p, i, m, j, n));
+    }
+
+    std::size_t quads_with(int row) const {
+        std::size_t count = 0;
+        for (const auto& quad : sides_) {
+            const int a = row_of_[at(edge(quad[0]))], b = row_of_[at(edge(quad[1]))];
+            count += static_cast<std::size_t>((parts_[at(a)] + (a == row)) *
+                                              (parts_[at(b)] + (b == row)));
         }
+        return count;
+    }
+
+    /// Divides rows whose sides or middles are far from the surface, the worst first.
+    void follow_surface() {
+        for (int round = 0; round < kMostRounds; ++round) {
+            const std::vector<double> off = distances_by_row();
+            std::vector<int> order;
+            for (int row = 0; row < static_cast<int>(off.size()); ++row)
+                if (off[at(row)] > options_.tolerance && parts_[at(row)] < kMostParts)
+                    order.push_back(row);
+            std::stable_sort(order.begin(), order.end(),
+                             [&](int a, int b) { return off[at(a)] > off[at(b)]; });
+            bool is_changed = false;
+            for (const int row : order) {
+                if (quads_with(row) > options_.most_quads) continue;
+                ++parts_[at(row)];
+                is_changed = true;
+                break;
+            }
+            if (!is_changed) break;
+        }
+        build();
+    }
+
+    /// Per row, how far its quads are from the surface: where that can be seen on sides that the
+    /// row crosses, there, else inside.
+    std::vector<double> distances_by_row() {
+        std::vector<double> off(row_of_.size(), 0);
+        distances_.resize(sides_.size());
+        for (std::size_t q = 0; q < sides_.size(); ++q) {
+            const int across = row(sides_[q][0]), along = row(sides_[q][1]);
+            QuadDistances& own = distances_[q];
+            if (own.across != parts_[at(across)] || own.along != parts_[at(along)])
+                own = distances_of(sides_[q]);
+            off[at(across)] = std::max(off[at(across)], own.on_across);
+            off[at(along)] = std::max(off[at(along)], own.on_along);
+            if (std::max(own.on_across, own.on_along) > options_.tolerance) continue;
+            const int cheap = lengths_[at(across)] * own.across <= lengths_[at(along)] * own.along
+                                  ? across
+                                  : along;
+            off[at(cheap)] = std::max(off[at(cheap)], own.inside);
+        }
+        return off;
+    }
+
+    struct QuadDistances {
+        int across = 0, along = 0;  ///< parts for which they are known
+        double on_across = 0, on_along = 0, inside = 0;
+    };
+
+    QuadDistances distances_of(const std::array<int, 4>& quad) const {
+        QuadDistances result;
+        result.across = parts_[at(row(quad[0]))];
+        result.along = parts_[at(row(quad[1]))];
+        const int m = kSamples * result.across, n = kSamples * result.along;
+        std::vector<Vec3> points;
+        for (int j = 0; j <= n; ++j)
+            for (int i = 0; i <= m; ++i)
+                points.push_back(position(domain_, point_at(quad[0], i, m, j, n)));
+        const auto point = [&](int i, int j) { return points[at(j * (m + 1) + i)]; };
+        for (int j = 0; j <= n; ++j) {
+            for (int i = 0; i <= m; ++i) {
+                // In the part's own coordinates.
+                const int left = std::min(i / kSamples * kSamples, m - kSamples);
+                const int below = std::min(j / kSamples * kSamples, n - kSamples);
+                const double u = (i - left) / double(kSamples), v = (j - below) / double(kSamples);
+                const Vec3 flat = (1 - u) * (1 - v) * point(left, below) +
+                                  u * (1 - v) * point(left + kSamples, below) +
+                                  u * v * point(left + kSamples, below + kSamples) +
+                                  (1 - u) * v * point(left, below + kSamples);
+                const double distance = (point(i, j) - flat).norm();
+                double& where = j % kSamples == 0   ? result.on_across
+                                : i % kSamples == 0 ? result.on_along
+                                                    : result.inside;
+                where = std::max(where, distance);
+            }
+        }
+        return result;
     }
 
     /// A vertex i / m along the line out of a port and j / n to its left.
@@ -203,14 +304,18 @@ private:
     };
 
     const GridMap& map_;
+    const GridWalk walk_;
     const GridVertices& vertices_;
     const std::vector<int>&owners_, &arrivals_;
     const std::vector<std::array<int, 4>>& sides_;
+    const Mesh& domain_;
+    const RowOptions& options_;
     std::vector<int> row_of_;           ///< per port that names an edge; a port that names the row
     std::vector<int> parts_, lengths_;  ///< by row
     std::map<std::array<int, 3>, int> known_;
     std::vector<InnerVertex> inner_;
     int vertex_count_ = 0;
+    std::vector<QuadDistances> distances_;
     DividedRows result_;
     std::vector<std::array<Side, 4>> sides_of_;  ///< of the result's faces
 };
@@ -219,8 +324,9 @@ private:
 
 DividedRows divide_rows(const GridMap& map, const GridVertices& vertices,
                         const std::vector<int>& owners, const std::vector<int>& arrivals,
-                        const std::vector<std::array<int, 4>>& sides) {
-    return RowDivision(map, vertices, owners, arrivals, sides).run();
+                        const std::vector<std::array<int, 4>>& sides, const Mesh& domain,
+                        const RowOptions& options) {
+    return RowDivision(map, vertices, owners, arrivals, sides, domain, options).run();
 }
 
 }  // namespace fcn

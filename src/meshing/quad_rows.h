@@ -7,6 +7,13 @@
 
 namespace fcn {
 
+struct RowOptions {
+    /// Where sides or middles of quads are farther than this from the surface, mesh units, rows are
+    /// divided; 0: nowhere.
+    double tolerance = 0;
+    std::size_t most_quads = 0;  ///< no more of them than this by that
+};
+
 /// Quads with rows of them divided.
 struct DividedRows {
     std::vector<std::array<int, 4>> faces;  ///< counter-clockwise
@@ -20,6 +27,7 @@ struct DividedRows {
 /// shortest rows first. Deterministic.
 DividedRows divide_rows(const GridMap& map, const GridVertices& vertices,
                         const std::vector<int>& owners, const std::vector<int>& arrivals,
-                        const std::vector<std::array<int, 4>>& sides);
+                        const std::vector<std::array<int, 4>>& sides, const Mesh& domain,
+                        const RowOptions& options);
 
 }  // namespace fcn

@@ -49,7 +49,6 @@ public:
         std::vector<int> next(begin_.begin(), begin_.end() - 1);
         for (int c = 0; c < static_cast<int>(corners_.size()); ++c)
             corners_[at(next[at(vertex(c))]++)] = c;
-        if (options.leash > 0) homes_ = mesh.points;
         place_.assign(mesh.points.size(), -1);
         is_on_curve_.assign(mesh.points.size(), true);
         for (int v = 0; v < vertex_count(); ++v)
@@ -147,10 +146,10 @@ private:
 
     /// Whether a move takes a free vertex farther from its home than it may be.
     bool is_off_leash(int v, const Vec3& p) const {
-        if (homes_.empty() || curve(v) != QuadConstraints::kFree) return false;
-        const double distance = (p - homes_[at(v)]).norm();
-        return distance > options_.leash * options_.edge_length &&
-               distance > (point(v) - homes_[at(v)]).norm();
+        if (constraints_.home.empty() || curve(v) != QuadConstraints::kFree) return false;
+        const Vec3& home = constraints_.home[at(v)];
+        const double distance = (p - home).norm();
+        return distance > constraints_.leash[at(v)] && distance > (point(v) - home).norm();
     }
 
     bool try_move(int v, const Vec3& normal, Vec3 p, const Judgement& before, bool may_worsen) {
@@ -224,7 +223,6 @@ private:
     std::vector<int> begin_, corners_;  ///< corners 4 f + i of each vertex
     std::vector<int> place_;            ///< face of the reference near the vertex, -1: unknown
     std::vector<bool> is_on_curve_;
-    std::vector<Vec3> homes_;  ///< where vertices were; empty: no matter
 };
 
 }  // namespace

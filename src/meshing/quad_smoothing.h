@@ -16,14 +16,16 @@ struct QuadConstraints {
     /// A vertex that does not lie on its curve is drawn there. One of a single point draws it to
     /// this point.
     std::vector<std::vector<Vec3>> curves;
+    /// Per vertex: a free one does not go farther than `leash`, mesh units, from `home`; both
+    /// empty: as far as it likes.
+    std::vector<Vec3> home;
+    std::vector<double> leash;
 };
 
 struct QuadSmoothingOptions {
     double edge_length = 0;   ///< h, mesh units, > 0
     int rounds = 20;          ///< of moving every vertex
     double least_sine = 0.3;  ///< moves make no corner worse than this, unless it was before
-    /// > 0: free vertices do not go farther than this from where they were, in h.
-    double leash = 0;
 };
 
 struct QuadSmoothingResult {

@@ -1,106 +1,137 @@
 // Tips that quads miss. A quad mesh that is smooth on a horn ends below its tip, and nothing in the
-// shape of quads pulls it up; the distance to the surface is large there although every vertex lies
-// on it. So the farthest points of the surface, one within a quad's length, take the nearest free
-// vertex, and smoothing leaves it there.
+// shape of quads pulls it up. So the farthest points of the surface, one within a quad's length,
+// take a free vertex of the quad nearest to them each, and what is around it is smoothed.
 #include "meshing/quad_tips.h"
 
 #include <algorithm>
-#include <array>
 
+#include "meshing/quad_faults.h"
 #include "meshing/quad_shape.h"
 
 namespace fcn {
 namespace {
 
-constexpr double kSpacing = 1;  ///< in h: between points that are reached for
-constexpr double kReach = 2;    ///< in h: of a vertex that is moved
+constexpr double kSpacing = 0.7;  ///< in h: between points that are reached for in one round
+constexpr int kMovedRings = 2;    ///< around a vertex that reaches
+constexpr int kRounds = 5, kLocalRounds = 10;
+constexpr double kGain = 0.1;  ///< in h: by which a point comes nearer at least
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-struct FarPoint {
-    double distance = 0;
-    Vec3 position = Vec3::Zero();
-};
+class TipReacher {
+public:
+    TipReacher(QuadMesh& mesh, const QuadConstraints& constraints, const std::vector<Vec3>& samples,
+               const ReferenceSurface& reference, const QuadFitOptions& options)
+        : mesh_(mesh),
+          constraints_(constraints),
+          samples_(samples),
+          reference_(reference),
+          options_(options) {}
 
-std::vector<FarPoint> far_points(const QuadMesh& mesh, const Mesh& surface, double least,
-                                 double spacing) {
-    std::vector<std::array<Vec3, 3>> corners;
-    for (const auto& triangle : cut_into_triangles(mesh))
-        corners.push_back({mesh.points[at(triangle[0])], mesh.points[at(triangle[1])],
-                           mesh.points[at(triangle[2])]});
-    const ReferenceSurface quads(corners);
-    std::vector<FarPoint> all;
-    int hint = -1;
-    for (const VertexHandle v : surface.vertices()) {
-        const ReferencePoint near =
-            quads.closest(surface.point(v), Vec3::Zero(), 100 * least, hint);
-        hint = near.face;
-        if (near.face >= 0 && near.distance > least)
-            all.push_back({near.distance, surface.point(v)});
+    int run() {
+        int moved = 0;
+        for (int round = 0; round < kRounds; ++round) {
+            std::vector<Vec3> tried;
+            const int before = moved;
+            for (const FarPoint& point :
+                 far_points(mesh_, samples_, reference_, options_.tolerance * h())) {
+                if (std::any_of(tried.begin(), tried.end(), [&](const Vec3& other) {
+                        return (other - point.position).norm() < kSpacing * h();
+                    }))
+                    continue;
+                tried.push_back(point.position);
+                moved += reach(point);
+            }
+            if (moved == before) break;
+        }
+        return moved;
     }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const FarPoint& a, const FarPoint& b) { return a.distance > b.distance; });
-    std::vector<FarPoint> chosen;
-    for (const FarPoint& point : all)
-        if (std::none_of(chosen.begin(), chosen.end(), [&](const FarPoint& other) {
-                return (other.position - point.position).norm() < spacing;
-            }))
-            chosen.push_back(point);
-    return chosen;
-}
+
+private:
+    double h() const { return options_.smoothing.edge_length; }
+
+    bool reach(const FarPoint& point) {
+        std::vector<int> candidates;
+        for (const int v : mesh_.faces[at(point.quad)])
+            if (constraints_.curve[at(v)] == QuadConstraints::kFree) candidates.push_back(v);
+        std::stable_sort(candidates.begin(), candidates.end(), [&](int a, int b) {
+            return (mesh_.points[at(a)] - point.position).norm() <
+                   (mesh_.points[at(b)] - point.position).norm();
+        });
+        return std::any_of(candidates.begin(), candidates.end(),
+                           [&](int v) { return try_vertex(v, point); });
+    }
+
+    bool try_vertex(int v, const FarPoint& point) {
+        std::vector<bool> is_near(mesh_.points.size(), false);
+        is_near[at(v)] = true;
+        std::vector<int> faces;
+        for (int ring = 0; ring <= kMovedRings; ++ring) {
+            const std::vector<bool> before = is_near;
+            faces.clear();
+            for (int f = 0; f < static_cast<int>(mesh_.faces.size()); ++f) {
+                const auto& face = mesh_.faces[at(f)];
+                if (std::none_of(face.begin(), face.end(), [&](int w) { return before[at(w)]; }))
+                    continue;
+                faces.push_back(f);
+                if (ring < kMovedRings)
+                    for (const int w : face) is_near[at(w)] = true;
+            }
+        }
+        QuadConstraints local = constraints_;
+        for (std::size_t w = 0; w < is_near.size(); ++w)
+            if (!is_near[w]) local.curve[w] = QuadConstraints::kFixed;
+        local.curve[at(v)] = QuadConstraints::kFixed;
+        const std::vector<Vec3> before = mesh_.points;
+        const double worst = worst_of(faces);
+        const double far = distance_of(faces, point.position);
+        mesh_.points[at(v)] = point.position;
+        QuadSmoothingOptions smoothing = options_.smoothing;
+        smoothing.rounds = kLocalRounds;
+        smooth_quads(mesh_, local, reference_, smoothing);
+        if (worst_of(faces) >= std::min(worst, options_.least_jacobian) &&
+            distance_of(faces, point.position) < far - kGain * h()) {
+            constraints_.curve[at(v)] = QuadConstraints::kFixed;
+            return true;
+        }
+        mesh_.points = before;
+        return false;
+    }
+
+    double worst_of(const std::vector<int>& faces) const {
+        double worst = 1;
+        for (const int f : faces) {
+            QuadCorners quad;
+            for (std::size_t i = 0; i < 4; ++i) quad[i] = mesh_.points[at(mesh_.faces[at(f)][i])];
+            worst = std::min(worst, scaled_jacobian(quad));
+        }
+        return worst;
+    }
+
+    /// The farthest sample around `place` from these faces.
+    double distance_of(const std::vector<int>& faces, const Vec3& place) const {
+        QuadMesh part;
+        part.points = mesh_.points;
+        for (const int f : faces) part.faces.push_back(mesh_.faces[at(f)]);
+        std::vector<Vec3> near;
+        for (const Vec3& sample : samples_)
+            if ((sample - place).norm() < 1.5 * h()) near.push_back(sample);
+        const std::vector<FarPoint> far = far_points(part, near, reference_, 0);
+        return far.empty() ? 0 : far.front().distance;
+    }
+
+    QuadMesh& mesh_;
+    QuadConstraints constraints_;
+    const std::vector<Vec3>& samples_;
+    const ReferenceSurface& reference_;
+    const QuadFitOptions& options_;
+};
 
 }  // namespace
 
-std::vector<bool> vertices_of_bad_quads(const QuadMesh& mesh, double least_jacobian) {
-    std::vector<bool> is_bad(mesh.points.size(), false);
-    for (const auto& face : mesh.faces) {
-        QuadCorners quad;
-        for (std::size_t i = 0; i < 4; ++i) quad[i] = mesh.points[at(face[i])];
-        if (scaled_jacobian(quad) >= least_jacobian) continue;
-        for (const int v : face) is_bad[at(v)] = true;
-    }
-    return is_bad;
-}
-
-int reach_tips(QuadMesh& mesh, const QuadConstraints& constraints, const Mesh& surface,
-               const ReferenceSurface& reference, const QuadTipOptions& options) {
-    const double h = options.smoothing.edge_length;
-    QuadConstraints pinned = constraints;
-    int moved = 0;
-    for (int round = 0; round < options.rounds; ++round) {
-        const std::vector<bool> was_bad = vertices_of_bad_quads(mesh, options.least_jacobian);
-        std::vector<int> pins;
-        QuadMesh trial = mesh;
-        for (const FarPoint& point : far_points(mesh, surface, options.far * h, kSpacing * h)) {
-            int best = -1;
-            double least = kReach * h;
-            for (int v = 0; v < static_cast<int>(mesh.points.size()); ++v) {
-                const double distance = (mesh.points[at(v)] - point.position).norm();
-                if (pinned.curve[at(v)] != QuadConstraints::kFree || distance >= least) continue;
-                least = distance;
-                best = v;
-            }
-            if (best < 0) continue;
-            pinned.curve[at(best)] = QuadConstraints::kFixed;
-            trial.points[at(best)] = point.position;
-            pins.push_back(best);
-        }
-        if (pins.empty()) break;
-        smooth_quads(trial, pinned, reference, options.smoothing);
-        const std::vector<bool> is_bad = vertices_of_bad_quads(trial, options.least_jacobian);
-        bool is_worse = false;
-        for (std::size_t v = 0; v < is_bad.size(); ++v)
-            is_worse = is_worse || (is_bad[v] && !was_bad[v]);
-        if (!is_worse) {
-            mesh = std::move(trial);
-            moved += static_cast<int>(pins.size());
-            continue;
-        }
-        // Those that did no harm come again in the next round, the others never.
-        for (const int v : pins)
-            pinned.curve[at(v)] = is_bad[at(v)] ? QuadConstraints::kFixed : QuadConstraints::kFree;
-    }
-    return moved;
+int reach_tips(QuadMesh& mesh, const QuadConstraints& constraints, const std::vector<Vec3>& samples,
+               const ReferenceSurface& reference, const QuadFitOptions& options) {
+    return TipReacher(mesh, constraints, samples, reference, options).run();
 }
 
 }  // namespace fcn

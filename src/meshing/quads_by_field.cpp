@@ -15,7 +15,9 @@
 #include "geometry/errors.h"
 #include "meshing/baselines.h"
 #include "meshing/quad_curves.h"
+#include "meshing/quad_faults.h"
 #include "meshing/quad_field.h"
+#include "meshing/quad_fitting.h"
 #include "meshing/quad_holes.h"
 #include "meshing/quad_smoothing.h"
 #include "meshing/quad_tips.h"
@@ -29,12 +31,13 @@ constexpr double kShrinking = 0.9;
 /// Triangles of the domain are this share of a quad's edge, longer where there were too many.
 constexpr double kFineShare = 1.0 / 3, kCoarseShare = 0.5;
 constexpr double kFilledLoop = 3;  ///< in edge lengths: such loops are closed for the map
-constexpr double kLeash = 0.5;     ///< in edge lengths, of smoothing: the map spread the vertices
-constexpr int kReleasedRings = 3;
 constexpr int kCurveRounds = 4;
 constexpr double kLeastJacobian = 0.2;   ///< of quads; worse ones are bad
 constexpr double kWorstJacobian = 0.02;  ///< of quads on lines of the grid
 constexpr double kFewCurves = 0.97;      ///< of the edges on folds that should be lines of the grid
+/// Rows are divided where quads are this far from the surface, in edge lengths, up to this many
+/// times the quads that fit.
+constexpr double kRowTolerance = 0.35, kMostQuads = 1.3;
 constexpr double kManyTriangles = 60000;
 
 class Stopwatch {
@@ -119,7 +122,11 @@ private:
     QuadMesh read_quads(const QuadDomain& domain, const FieldMap& map, QuadAttempt& attempt) const {
         Stopwatch watch;
         attempt.step = "extraction";
-        QuadExtraction extraction = steps_.extraction(domain.mesh, map.map);
+        RowOptions rows;
+        rows.tolerance = kRowTolerance * attempt.edge_length;
+        rows.most_quads = static_cast<std::size_t>(kMostQuads * area_ /
+                                                   (attempt.edge_length * attempt.edge_length));
+        QuadExtraction extraction = steps_.extraction(domain.mesh, map.map, rows);
         attempt.extraction += watch.lap();
         attempt.reason = extraction.fault;
         if (!attempt.reason.empty()) return {};
@@ -181,55 +188,27 @@ private:
         curves.is_left_out.assign(network_.arcs.size(), options_.guidance == QuadGuidance::None);
         curves.lines = lines;
         curves.is_free.assign(network_.arcs.size(), false);
-        QuadSmoothingOptions smoothing;
-        smoothing.edge_length = edge_length;
-        smoothing.rounds = options_.smoothing_rounds;
-        smoothing.leash = kLeash;
+        QuadFitOptions fit;
+        fit.smoothing.edge_length = edge_length;
+        fit.smoothing.rounds = options_.smoothing_rounds;
+        const std::vector<Vec3> samples = sample_points(input_.mesh, edge_length / 2);
         for (int round = 0;; ++round) {
             QuadMesh trial = mesh;
             const QuadConstraints constraints =
                 move_to_curves(trial, input_.mesh, network_, curves);
-            const QuadMesh start = trial;
-            smooth_quads(trial, constraints, reference_, smoothing);
-            release_bad_quads(trial, constraints, smoothing);
-            if (count_inverted_corners(trial) > 0) {
-                trial = start;
-                QuadSmoothingOptions free = smoothing;
-                free.leash = 0;
-                smooth_quads(trial, constraints, reference_, free);
-            }
+            fit_quads(trial, constraints, samples, reference_, fit);
             if (round < kCurveRounds && leave_out_bad_arcs(trial, curves)) continue;
             if (round == kCurveRounds) {
                 curves.is_left_out.assign(network_.arcs.size(), true);
                 if (count_inverted_corners(trial) > 0)
                     curves.is_free.assign(network_.arcs.size(), true);
             } else {
-                QuadTipOptions tips;
-                tips.smoothing = smoothing;
                 if (count_inverted_corners(trial) == 0)
-                    reach_tips(trial, constraints, input_.mesh, reference_, tips);
+                    reach_tips(trial, constraints, samples, reference_, fit);
                 mesh = std::move(trial);
                 return count_inverted_corners(mesh);
             }
         }
-    }
-
-    /// Smooths without a leash around quads that are bad, and nowhere else.
-    void release_bad_quads(QuadMesh& mesh, QuadConstraints constraints,
-                           QuadSmoothingOptions smoothing) const {
-        std::vector<bool> is_released = vertices_of_bad_quads(mesh, kLeastJacobian);
-        if (std::none_of(is_released.begin(), is_released.end(), [](bool b) { return b; })) return;
-        for (int ring = 0; ring < kReleasedRings; ++ring) {
-            const std::vector<bool> before = is_released;
-            for (const auto& face : mesh.faces)
-                if (std::any_of(face.begin(), face.end(),
-                                [&](int v) { return before[static_cast<std::size_t>(v)]; }))
-                    for (const int v : face) is_released[static_cast<std::size_t>(v)] = true;
-        }
-        for (std::size_t v = 0; v < is_released.size(); ++v)
-            if (!is_released[v]) constraints.curve[v] = QuadConstraints::kFixed;
-        smoothing.leash = 0;
-        smooth_quads(mesh, constraints, reference_, smoothing);
     }
 
     /// No lines are moved any more onto arcs on whose vertices there is a bad quad; where there is

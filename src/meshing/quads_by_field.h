@@ -25,7 +25,8 @@ struct QuadSteps {
     /// Moves singularities away from curves; returns how many. Asked where curves gave way.
     std::function<int(const QuadDomain&, FieldDesign&, double edge_length)> clearance =
         clear_network;
-    std::function<QuadExtraction(const Mesh&, const CornerMap&)> extraction = extract_quads;
+    std::function<QuadExtraction(const Mesh&, const CornerMap&, const RowOptions&)> extraction =
+        extract_quads;
     std::function<int(QuadMesh&)> smoothing;  ///< returns the number of inverted corners
 };
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "meshing/grid_map.h"
 #include "sample_maps.h"
@@ -224,6 +226,30 @@ TEST(QuadExtraction, WantsSingularitiesOnTheGrid) {
     for (auto& face : cube.map.uv)
         for (Vec2& p : face) p += Vec2(0.5, 0.5);
     EXPECT_TRUE(contains(extract(cube).fault, "valence 3, not on the grid")) << extract(cube).fault;
+}
+
+TEST(QuadExtraction, RowsAreDividedWhereQuadsAreFarFromTheSurface) {
+    // Half a cylinder of radius 1 and two quads: a chord of a right angle is 1 - cos 45 degrees
+    // from its arc, one of half of that 1 - cos 22.5 degrees.
+    MappedMesh mapped = mapped_patches(test::quad_grid(1, 1), {32, 2, 0, false, 1});
+    for (const VertexHandle v : mapped.mesh.vertices()) {
+        const double angle = std::numbers::pi * mapped.mesh.point(v)[0];
+        mapped.mesh.set_point(v, {std::cos(angle), mapped.mesh.point(v)[1], -std::sin(angle)});
+    }
+    const auto quads = [&](double tolerance, std::size_t most) {
+        RowOptions options;
+        options.tolerance = tolerance;
+        options.most_quads = most;
+        const QuadExtraction result = extract_quads(mapped.mesh, mapped.map, options);
+        EXPECT_EQ(result.fault, "");
+        return result.mesh.faces.size();
+    };
+    EXPECT_EQ(quads(0, 100), 4u);
+    EXPECT_EQ(quads(1 - std::cos(std::numbers::pi / 4) + 1e-9, 100), 4u);
+    EXPECT_EQ(quads(0.1, 100), 8u);
+    EXPECT_EQ(quads(0.1, 7), 6u);
+    EXPECT_EQ(quads(1 - std::cos(std::numbers::pi / 8) + 1e-9, 100), 8u);
+    EXPECT_EQ(quads(0.05, 100), 12u);
 }
 
 TEST(QuadExtraction, RefusesWhatIsNoMeshOfQuads) {
