@@ -23,20 +23,6 @@ double wrap(double angle) {
     return angle <= -kPi ? angle + 2 * kPi : angle;
 }
 
-/// Inner angle of h's face where h starts.
-double corner_angle(const Mesh& mesh, HalfedgeHandle h) {
-    const Vec3& p = mesh.point(mesh.from_vertex_handle(h));
-    const Vec3 a = mesh.point(mesh.to_vertex_handle(h)) - p;
-    const Vec3 b = mesh.point(mesh.from_vertex_handle(mesh.prev_halfedge_handle(h))) - p;
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-/// From the direction of h to the nearest arm.
-double nearest_arm(const Mesh& mesh, const CrossField& field, HalfedgeHandle h) {
-    return std::remainder(field.angles[at(mesh.face_handle(h).idx())] - halfedge_angle(mesh, h),
-                          kQuarter);
-}
-
 /// In radians, counter-clockwise from the first face around a vertex to the last.
 double turning_around(const Mesh& mesh, const CrossField& field, VertexHandle v) {
     const HalfedgeHandle start = mesh.halfedge_handle(v);
@@ -65,6 +51,18 @@ double turning_around(const Mesh& mesh, const CrossField& field, VertexHandle v)
 }
 
 }  // namespace
+
+double corner_angle(const Mesh& mesh, HalfedgeHandle h) {
+    const Vec3& p = mesh.point(mesh.from_vertex_handle(h));
+    const Vec3 a = mesh.point(mesh.to_vertex_handle(h)) - p;
+    const Vec3 b = mesh.point(mesh.from_vertex_handle(mesh.prev_halfedge_handle(h))) - p;
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+double nearest_arm(const Mesh& mesh, const CrossField& field, HalfedgeHandle h) {
+    return std::remainder(field.angles[at(mesh.face_handle(h).idx())] - halfedge_angle(mesh, h),
+                          kQuarter);
+}
 
 double halfedge_angle(const Mesh& mesh, HalfedgeHandle h) {
     const HalfedgeHandle first = mesh.halfedge_handle(mesh.face_handle(h));

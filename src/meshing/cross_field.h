@@ -20,6 +20,12 @@ struct CrossField {
 /// Angle in (-pi, pi] of a halfedge of an inner face in that face's frame.
 double halfedge_angle(const Mesh& mesh, HalfedgeHandle h);
 
+/// Inner angle of h's face where h starts, radians.
+double corner_angle(const Mesh& mesh, HalfedgeHandle h);
+
+/// From the direction of h, which has a face, to the nearest arm there, in [-pi / 4, pi / 4].
+double nearest_arm(const Mesh& mesh, const CrossField& field, HalfedgeHandle h);
+
 /// What is added to an angle in the frame of h's face to express the direction in the frame of the
 /// face across h, after unfolding; in (-pi, pi]. Both sides must be faces.
 double frame_rotation(const Mesh& mesh, HalfedgeHandle h);

@@ -22,19 +22,6 @@ constexpr double kTurningReach = 0.5;       ///< in h, within which turning is m
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-double corner_angle(const Mesh& mesh, HalfedgeHandle h) {
-    const Vec3& p = mesh.point(mesh.from_vertex_handle(h));
-    const Vec3 a = mesh.point(mesh.to_vertex_handle(h)) - p;
-    const Vec3 b = mesh.point(mesh.from_vertex_handle(mesh.prev_halfedge_handle(h))) - p;
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-/// From the direction of h to the nearest arm of its face.
-double nearest_arm(const Mesh& mesh, const CrossField& field, HalfedgeHandle h) {
-    return std::remainder(field.angles[at(mesh.face_handle(h).idx())] - halfedge_angle(mesh, h),
-                          kQuarter);
-}
-
 /// Quarters of the field from h, counter-clockwise around its origin, to the next edge that is
 /// marked or at the boundary, or back to h; h has a face.
 int quarters_from(const Mesh& mesh, const CrossField& field, const std::vector<bool>& is_marked,
